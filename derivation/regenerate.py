@@ -1,5 +1,6 @@
 """Deriving, emitting and certifying solvers, and writing them."""
 
+import difflib
 import os
 from collections.abc import Iterable
 from math import isfinite
@@ -25,6 +26,7 @@ from .folder import (
     write_files,
 )
 from .model import Model
+from .outcome import Derivation
 
 AIM = 16.0  # ulp of the natural scale
 
@@ -53,6 +55,7 @@ def regenerate(
     if not (isinstance(accepted, dict) and all(isinstance(text, str) for text in (*accepted, *accepted.values()))):
         raise InputError("accept", accept, 'a dictionary {"module.function": "reason"}, or None')
     derivations = derivations_of(models, progress)
+    require_certified(accepted, derivations)
     files = emit(derivations)
     certificates = {}
     with importable(files) as solver:
@@ -68,6 +71,15 @@ def regenerate(
     files |= audit_texts(derivations, files, certificates, figures)
     files[MEASURED] = dumped(figures)
     return write_files(target, files)
+
+
+def require_certified(accept: dict[str, str], derivations: Iterable[Derivation]) -> None:
+    """Raise :class:`hystrip.InputError` unless every key of ``accept`` is a function that has a bound."""
+    known = [f"{derivation.model.name}.{name}" for derivation in derivations for name in certified_names(derivation)]
+    for key in accept:
+        if key not in known:
+            near = difflib.get_close_matches(key, known) or known[:3]
+            raise InputError("accept", key, f'functions that have a bound, as "module.function", such as {", ".join(near)}')
 
 
 def bounds_of(

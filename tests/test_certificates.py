@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 from derived_once import derivation
 
-from hystrip.derivation import CertificateError, generated_folder, stored_bounds
+from hystrip.derivation import CertificateError, generated_folder, regenerate, stored_bounds
 from hystrip.derivation.certificates import measure
 from hystrip.derivation.folder import CERTIFICATES
-from hystrip.derivation.regenerate import AIM, bounds_of
+from hystrip.derivation.regenerate import AIM, bounds_of, require_certified
+from hystrip.errors import InputError
 from hystrip.generated import stable, standard_linear_solid
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
@@ -71,6 +72,20 @@ def test_a_bound_does_not_grow_by_itself() -> None:
         bounds_of("standard_linear_solid", measured, stored, {})
     rows = bounds_of("standard_linear_solid", measured, stored, {"standard_linear_solid.profile_rise": "a worse sine"})
     assert rows["profile_rise"]["why"] == "a worse sine" and rows["profile_rise"]["bound"] > 2.0
+
+
+def test_a_function_that_has_no_bound_cannot_be_accepted() -> None:
+    require_certified({"standard_linear_solid.profile_rise": "a worse sine"}, [derivation()])
+    for key in ("standard_linear_solid.profile_rize", "profile_rise", "kelvin_voigt.profile_rise"):
+        with pytest.raises(InputError, match=f"accept: got '{key}'; allowed: .*such as .*standard_linear_solid.profile_rise"):
+            require_certified({key: "a worse sine"}, [derivation()])
+
+
+def test_what_is_accepted_is_held_to_the_functions_before_anything_is_emitted(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr(sys.modules[bounds_of.__module__], "derivations_of", lambda models, progress: (derivation(),))
+    with pytest.raises(InputError, match="accept: got 'profile_rise'"):
+        regenerate(tmp_path / "out", accept={"profile_rise": "a worse sine"})
+    assert not list(tmp_path.iterdir())
 
 
 EVENTS = {
