@@ -5,6 +5,7 @@ import functools
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 
 import hystrip
 from hystrip.arguments import point_index
@@ -35,6 +36,23 @@ def inside(figure):
 @pytest.mark.parametrize("count", [2, 3, 6, 8])
 def test_legends_stand_inside_the_canvas(count):
     assert inside(saturated(count).plot())
+
+
+@pytest.mark.parametrize("count", [14, 15, 50])
+def test_no_two_levels_are_drawn_alike(count):
+    figure = saturated(count).plot("mu")
+    panel, *scale = figure.axes
+    lines = [line for line in panel.lines if "level" in line.get_label()]
+    styles = {(to_hex(line.get_color()), str(line._unscaled_dash_pattern)) for line in lines}
+    assert len(lines) == len(styles) == count
+    named = [text.get_text() for text in figure.legends[0].get_texts()]
+    if count < 15:
+        assert len(named) == count + 1 and not scale
+    else:
+        assert named == ["total"]
+        (said,) = [[each.get_text() for each in axis.get_xticklabels()] for axis in scale]
+        assert said[0] == "1\n10 µm" and said[-1].startswith(f"{count}\n")
+    assert inside(figure)
 
 
 @pytest.mark.parametrize("kind", ["mu", "tau", None])

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
+from ..extras import require
 from ..tables import parts_of_mu
 from .legend import legend_above
 from .style import COLUMN, DASHES, OKABE_ITO, stacked, styled
@@ -25,6 +26,10 @@ _PANELS = 6
 _APART = 0.05
 #: a logarithmic axis ends at this part of the least total: what a level adds below is not worth decades of it
 _FAINT = 1e-3
+#: most levels that a legend names; of more it would be larger than the panels, and pairs of colour and dash repeat
+_NAMED = 14
+#: height of the scale that takes its place [inch]
+_SCALE = 0.5
 _LOADS = {"pressure": ("nominal pressure $p$", "Pa"), "penetration": ("penetration $D$", "m")}
 
 
@@ -110,7 +115,7 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
     if low == 0 and _over_decades(moving):
         panels[-1].set_xscale("symlog", linthresh=moving[0], linscale=0.5)
     panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
-    return _with_legend(panels[0])
+    return _with_legend(panels, result)
 
 
 def _over_decades(x: np.ndarray) -> bool:
@@ -166,19 +171,30 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
     _scale(panels[-1], load[0] / factor, load[-1] / factor, logarithmic)
     panels[-1].set_xlabel(f"{text} ({name})")
-    return _with_legend(panels[0])
+    return _with_legend(panels, result)
 
 
 def _curves(result: Result, quantity: _Quantity) -> list[tuple[np.ndarray, dict[str, Any], str]]:
     """Values, style and label of every line."""
     curves: list[tuple[np.ndarray, dict[str, Any], str]] = []
     if quantity.parts is not None and len(result.levels) > 1:
+        colours = _colours(len(result.levels))
         for index, (level, part) in enumerate(zip(result.levels, quantity.parts(result), strict=True)):
-            style = {"color": OKABE_ITO[index % len(OKABE_ITO)], "linestyle": DASHES[index % len(DASHES)]}
-            curves.append((np.asarray(part), style, f"level {index + 1} ($l$ = {length(level.l)})"))
+            style, label = {"color": colours[index]}, f"_level {index + 1}"  # in no legend
+            if len(colours) <= _NAMED:
+                style["linestyle"] = DASHES[index % len(DASHES)]
+                label = f"level {index + 1} ($l$ = {length(level.l)})"
+            curves.append((np.asarray(part), style, label))
     if quantity.total is not None:
         curves.insert(0, (np.asarray(quantity.total(result)), {"color": "black", "zorder": 3}, "total"))
     return curves
+
+
+def _colours(levels: int) -> list[Any]:
+    """A colour for each level: of the palette, or of a scale from the first to the last of many."""
+    if levels <= _NAMED:
+        return [OKABE_ITO[index % len(OKABE_ITO)] for index in range(levels)]
+    return list(require("matplotlib", "plot", "drawing").colormaps["viridis_r"](np.linspace(0.15, 1, levels)))
 
 
 def _limits_apart_from_the_pole(pressure: np.ndarray, curves: list[np.ndarray]) -> tuple[float, float]:
@@ -234,10 +250,28 @@ def _draw(
     panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))
 
 
-def _with_legend(panel: Any) -> Figure:
-    handles, labels = panel.get_legend_handles_labels()
-    figure: Figure = panel.figure
+def _with_legend(panels: Any, result: Result) -> Figure:
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure: Figure = panels[0].figure
     figure.align_ylabels()
-    if len(handles) > 1:
+    many = len(result.levels) > _NAMED
+    if many:
+        _with_scale(panels, result)
+    if many or len(handles) > 1:
         legend_above(figure, handles, labels)
     return figure
+
+
+def _with_scale(panels: Any, result: Result) -> None:
+    """Put a scale of the levels' colours above the panels, which keep their height."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import ListedColormap, Normalize
+
+    count, figure = len(result.levels), panels[0].figure
+    scale = ScalarMappable(Normalize(0.5, count + 0.5), ListedColormap(_colours(count)))
+    figure.set_figheight(figure.get_figheight() + _SCALE)
+    bar = figure.colorbar(scale, ax=panels, location="top", aspect=40, label="level, and its wavelength $l$")
+    ticks = np.linspace(1, count, 4).round().astype(int)
+    bar.set_ticks(ticks, labels=[f"{each}\n{length(result.levels[each - 1].l)}" for each in ticks])
+    bar.ax.minorticks_off()
+    bar.ax.tick_params(which="both", length=0)
