@@ -268,6 +268,16 @@ def test_a_map_has_the_means_of_its_level():
     assert inside(found.plot()) and inside(level.plot("strip", y=2e-6))
 
 
+@pytest.mark.parametrize(
+    ("p", "h", "said"), [(1e8, 1e-6, "within 6.35 kPa"), (1e6, 0, "everywhere"), (0, 0, "everywhere"), (3e3, 1e-6, None)]
+)
+def test_a_map_of_one_colour_says_how_even_the_pressure_is(p, h, said):
+    result = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), [hystrip.Level(l=1e-5, h=h)], pressure=p, velocity=1e-3, rtol=1e-2)
+    figure = result.plot("map")
+    texts = [text.get_text() for text in figure.axes[0].texts]
+    assert texts == ([] if said is None else [f"the same pressure\n{said}"]) and inside(figure)
+
+
 def test_stresses_along_a_strip_are_those_of_the_levels():
     result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=100.0, velocity=5e-3, rtol=1e-3)
     cell = cell_of(result, 0, 1)

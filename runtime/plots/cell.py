@@ -8,17 +8,24 @@ import numpy as np
 
 from .legend import legend_above
 from .style import COLUMN, DASHES, axes, styled
-from .units import length, unit_for
+from .units import length, pressure, unit_for
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from ..contact_map import ContactMap
 
+#: a pressure that varies by less than this part of the largest has one colour
+_ONE_COLOUR = 0.03
+#: and by less than this is even: what is left is rounding
+_ROUNDING = 1e-12
+
 
 @styled
 def contact_map(cell: ContactMap) -> Figure:
     """Draw a :class:`hystrip.contact_map.ContactMap`: the pressure in colours, contact and adhesion outlined.
+
+    Where it hardly varies, a text says by how much: it has one colour.
 
     Returns
     -------
@@ -32,6 +39,10 @@ def contact_map(cell: ContactMap) -> Figure:
     panel = axes(COLUMN, 0.85 * COLUMN)
     reach = np.abs(p).max() or 1.0
     mesh = panel.pcolormesh(cell.x / l, cell.y / l, p, cmap="PuOr_r", vmin=-reach, vmax=reach, shading="gouraud", rasterized=True)
+    spread = np.ptp(cell.pressure)
+    if spread < _ONE_COLOUR * factor * reach:
+        said = f"within {pressure(spread)}" if spread > _ROUNDING * factor * reach else "everywhere"
+        panel.text(0, 0, f"the same pressure\n{said}", ha="center", va="center", color="white" if p.any() else "black")
     outlines = []
     engaged = cell.contact | cell.adhesion
     for zone, border, style, label in (
