@@ -31,14 +31,6 @@ class SolverError(HystripError, RuntimeError):
     """No solution passed its own checks. The message names the strip; no number is returned in its place."""
 
 
-class FitWarning(UserWarning):
-    """A series that fits poorly what it was fitted to. Says over which band, and by how much."""
-
-
-class DataWarning(UserWarning):
-    """Measured moduli or temperatures of no rubber. Names the column, the unit it was taken for, and what is usual."""
-
-
 class ConvergenceWarning(UserWarning):
     """Points that came back without the accuracy asked for. The message names the first of them and the reason."""
 

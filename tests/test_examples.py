@@ -72,6 +72,22 @@ def test_what_a_user_calls_has_an_example(name):
     assert ">>> " in getattr(hystrip, name).__doc__
 
 
+@pytest.mark.skipif(not (ROOT / "tools/docs.py").is_file(), reason="checks the pages that the repository's documentation makes")
+def test_dead_links_of_the_site_are_found(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "tools")
+    docs = importlib.import_module("docs")
+    (tmp_path / "code").mkdir()
+    (tmp_path / "index.html").write_text('<p id="a b"><a href="#a%20b">here</a><a href="code/x.html#y">y</a><img src="no.png">')
+    (tmp_path / "code/x.html").write_text('<a href="../index.html#dma.y" id="y">back</a><a href="https://example.org/#z">out</a>')
+    assert docs.dead_links(tmp_path) == [("code/x.html", "../index.html#dma.y"), ("index.html", "no.png")]
+
+
+def test_warnings_of_a_package_are_documented_where_their_code_is():
+    # the links from the code to the reference are made of the name of the package that a module was first documented under
+    for package in (hystrip.dma, hystrip.roughness):
+        assert all(getattr(package, name).__module__.startswith(package.__name__) for name in package.__all__), package
+
+
 @pytest.mark.skipif(not (ROOT / "tools/docs").is_dir(), reason="reads the documentation of the repository")
 def test_lists_of_names_hold_nothing_but_names():
     """On the pages of the reference a paragraph below a list of arguments was read as one more of them."""

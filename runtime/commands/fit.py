@@ -48,10 +48,10 @@ def command(
     Writes measured and fitted moduli as CSV, a picture, and with --nu or --length a scene that holds the material: SCENE
     with its own replaced. A master curve of `hystrip master` brings its temperature shift along.
     """
-    from ..dma import fit_prony, read_dma
+    from ..dma import FitWarning, fit_prony, read_dma
     from ..dma.output import SHEAR, material_tables, rows, shift_table
     from ..dma.read import read_shift
-    from ..errors import FitWarning, InputError, printable
+    from ..errors import InputError, printable
     from ..extras import require
     from ..files import refuse_unwritable
     from ..inputs.checks import number

@@ -1,10 +1,10 @@
 """Measured relaxation: from storage and loss modulus (DMA) to a Prony series, and from that to the foundation."""
 
-from ..errors import DataWarning, FitWarning
-from .fit import fit_prony
+from .fit import FitWarning, fit_prony
 from .isotherms import read_isotherms
 from .master import MasterCurve, master_curve
 from .modulus import DynamicModulus
+from .plausibility import DataWarning
 from .read import read_dma
 from .series import Foundation, PronySeries
 

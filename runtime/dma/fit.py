@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import FitWarning, InputError
+from ..errors import InputError
 from ..inputs.checks import number, numbers
 from ..inputs.fitted import POOR, FittedBand
 from ..inputs.prony import MOST_TIMES
@@ -22,6 +22,10 @@ _NOTHING = 1e-12
 #: numbers of times that are tried where evenly spaced ones don't reach the accuracy; what does not reach it at all takes the
 #: fewest that come this near to the best
 _TRIED, _AS_GOOD = (5, 10, 20), 1.05
+
+
+class FitWarning(UserWarning):
+    """A series that fits poorly what it was fitted to. Says over which band, and by how much."""
 
 
 def fit_prony(

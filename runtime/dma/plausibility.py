@@ -4,12 +4,15 @@ import warnings
 
 import numpy as np
 
-from ..errors import DataWarning
 from ..plausibility import COLDEST, HOTTEST
 from .columns import Column
 
 #: Pa: softer than any gel that keeps its shape, stiffer than diamond; mPa taken for MPa comes out there
 SOFTEST, STIFFEST = 10.0, 1e12
+
+
+class DataWarning(UserWarning):
+    """Measured moduli or temperatures of no rubber. Names the column, the unit it was taken for, and what is usual."""
 
 
 def remark_on(where: str, column: Column, storage: np.ndarray) -> None:
