@@ -60,6 +60,12 @@ EXPORTS = {
     "by points, twice": "f [mHz];E' [Pa];E'' [Pa]\n500;1.500.000;250.000\n5.000;3.000.000;750.000\n",
     "by commas, point elsewhere": "f [Hz];E' [kPa];E'' [kPa]\n0.5;1,500;250\n5;3,000;750\n",
     "three digits between commas": "f [Hz],E' [MPa],E'' [kPa]\n0.5,1.500,250\n5,3,750\n".replace("0.5", "0.500"),
+    "names behind the sign of a remark": table("# f [Hz];E' [MPa];E'' [MPa]"),
+    "names in a remark and again": "# f;E';E''\n" + table("f [Hz];E' [MPa];E'' [MPa]"),
+    "names again above each part": "[step]\nsweep 1\n"
+    + table("f;E';E''\nHz;MPa;MPa", HZ[:1], MPA[:1])
+    + "[step]\nName;sweep 2\n"
+    + table("f;E';E''\nHz;MPa;MPa", HZ[1:], MPA[1:]),
     "quotation mark in a remark": '"Sample: foo\nx\n' + table("f [Hz];E' [MPa];E'' [MPa]"),
     "quotation mark below": table("f [Hz];E' [MPa];E'' [MPa];note").replace("0.25\n", '0.25;"3 inch\n'),
     "name of two lines": table('f [Hz];"E\'\n[MPa]";"E\'\'\n[MPa]"'),
@@ -72,6 +78,20 @@ def test_exports_are_read_as_the_same_numbers(tmp_path, name):
     data = read_dma(written(tmp_path, EXPORTS[name]))
     assert data.kind == "E" and data.frequency == pytest.approx(HZ, rel=1e-12)
     assert data.storage == pytest.approx([1.5e6, 3e6], rel=1e-12) and data.loss == pytest.approx([2.5e5, 7.5e5], rel=1e-12)
+
+
+def test_what_stands_first_behind_the_sign_of_a_remark_is_a_column_too(tmp_path):
+    export = "#INSTRUMENT:;DMA\n##Temp./°C;Freq./Hz;E'/MPa;E''/MPa\n20,0;0,5;1,5;0,25\n20,1;5;3;0,75\n"
+    readings = read_readings(written(tmp_path, export))
+    assert readings.temperature == pytest.approx([293.15, 293.25])
+
+
+def test_steps_of_temperature_may_have_tables_of_their_own(tmp_path):
+    names = "Angular frequency;Storage modulus;Loss modulus;Temperature\nrad/s;MPa;MPa;°C\n"
+    text = "".join(f"[step]\nFrequency sweep - {T}\n{names}1;3;1;{T}\n10;4;1;{T}\n\n" for T in (10, 20))
+    readings = read_readings(written(tmp_path, text))
+    assert readings.temperature == pytest.approx([283.15] * 2 + [293.15] * 2) and readings.omega.tolist() == [1, 10] * 2
+    assert "2 tables with the same names, one below the other" in readings.columns
 
 
 def test_all_digits_in_threes_between_commas_are_decimal_points(tmp_path):

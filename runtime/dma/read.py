@@ -26,7 +26,7 @@ def read_dma(
     """Read frequency, storage and loss modulus from what an instrument exports as text.
 
     Columns are parted by comma, semicolon or tab; numbers have a decimal point or comma. A row of names, in any order and
-    below any remarks, with the unit in the name or in a row of its own::
+    below any remarks, with the unit in the name or in a row of its own; the same names again may stand above each step::
 
         f, E_stor, E_loss            Frequency [Hz];E' [MPa];tan delta
         Hz, MPa, MPa                 0,01;1,02;0,108
@@ -199,6 +199,8 @@ def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left
     if ignored:
         lines.append(f"ignored: {', '.join(map(repr, ignored[:8]))}" + (", ..." if len(ignored) > 8 else ""))
     lines.append(f"cells parted by {table.separator}, decimal {'comma' if comma else 'point'}")
+    if table.times > 1:
+        lines.append(f"{table.times} tables with the same names, one below the other")
     if left_out:
         lines.append(f"{left_out} row{'s' if left_out > 1 else ''} left out: a number is missing")
     return tuple(lines)

@@ -21,11 +21,13 @@ _THOUSANDS = {sign: re.compile(rf"[-+]?[1-9]\d{{0,2}}(\{sign}\d{{3}})+") for sig
 #: thousands parted by blanks or apostrophes, which no decimal sign looks like
 _PARTED = re.compile(r"[-+\u2212]?\d{1,3}([\s'’])\d{3}(\1\d{3})*([.,]\d*)?([eE][-+]?\d+)?")
 
+_DIGITS = re.compile(r"[-+\u2212]?[\d.,\s'’]+([eE][-+]?\d+)?")
+
 
 @dataclass(frozen=True)
 class Table:
     """A table of text: ``names`` of the columns, the rows below as (line number, cells), what parts the cells, and the
-    ``line`` of the names, and the lines above it."""
+    ``line`` of the names, the lines above it, and of how many tables with the same names the rows are."""
 
     where: str
     names: list[str]
@@ -33,6 +35,7 @@ class Table:
     separator: str
     line: int
     remarks: tuple[str, ...] = ()
+    times: int = 1
 
     def cell(self, row: Sequence[str], column: int) -> str:
         """A cell, empty beyond the end of its row."""
@@ -55,13 +58,15 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
     where = str(path_of(path, "path", "a text file with a table"))
     lines = _text(where).splitlines()
     nearest = (lacking([])[0], "", 0, [])
-    # first line by line: a quotation mark in a remark opens no cell of many lines
-    for whole, separator in itertools.product((False, True), _SEPARATORS):
+    # first line by line: a quotation mark in a remark opens no cell of many lines; names behind the sign of a remark at last
+    for marked, whole, separator in itertools.product((False, True), (False, True), _SEPARATORS):
         rows = _rows(where, lines, separator, whole)
         for at, (line, cells) in enumerate(rows[:_PREAMBLE]):
-            count, words = lacking(cells)
+            names = [cells[0].lstrip("#% "), *cells[1:]]
+            count, words = lacking(names if marked else cells)
             if not count:
-                return _checked(Table(where, cells, rows[at + 1 :], _SEPARATORS[separator], line, tuple(lines[: line - 1])))
+                below, times = _joined(cells, rows[at + 1 :])
+                return _checked(Table(where, names, below, _SEPARATORS[separator], line, tuple(lines[: line - 1]), times))
             if count < nearest[0]:
                 nearest = (count, words, line, cells)
     _, words, line, cells = nearest
@@ -72,6 +77,27 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
         raise InputError(where, "no text", "a row of names (frequency, storage and loss modulus, with units), then numbers")
     allowed = "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta"
     raise InputError(where, first, f"{allowed}; separated by comma, semicolon or tab; among the first {_PREAMBLE} rows")
+
+
+def _joined(names: list[str], rows: list[tuple[int, list[str]]]) -> tuple[list[tuple[int, list[str]]], int]:
+    """Rows of tables with the same names, one below the other, without the names, units and remarks above each but the first;
+    and how many tables there are."""
+    joined: list[tuple[int, list[str]]] = []
+    times, above = 1, False
+    for line, cells in rows:
+        if cells == names:
+            times, above = times + 1, True
+            while joined and not _numeric(joined[-1][1]):
+                joined.pop()
+        elif not (above and cells == rows[0][1] and not _numeric(cells)):
+            joined.append((line, cells))
+            above = False
+    return joined, times
+
+
+def _numeric(cells: Sequence[str]) -> bool:
+    """Whether one of the cells is a number."""
+    return any(_DIGITS.fullmatch(cell) for cell in cells)
 
 
 def _checked(table: Table) -> Table:
