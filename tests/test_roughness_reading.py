@@ -91,7 +91,7 @@ def test_a_unit_of_lengths_leaves_stated_heights_alone(files, tmp_path):
         (
             "lengths",
             {"unit": "mm"},
-            "scan.heights: .. on a scan of 2e-05 m'; .. (lengths in mm as the file says, heights in mm as given",
+            "on a scan of 2e-05 m'; .. lengths in mm as the file says, heights in mm as given .. # Value units: um",
         ),
     ],
 )
@@ -145,6 +145,25 @@ def test_what_is_no_scan_is_refused_without_a_warning(tmp_path, text):
 def test_decimal_commas_are_read(files, tmp_path):
     path = text_scan(tmp_path / "scan.txt", "lengths", write=lambda number: number.replace(".", ","))
     assert np.allclose(read_surface(path, unit="um").heights.std(), eq4(LEVELS, 2e-5, 160).std(), rtol=1e-6, atol=0)
+
+
+@pytest.mark.parametrize(("sign", "end"), [(",", "\n"), (";", "\r\n"), (" ; ", ";\n")])
+def test_a_matrix_may_have_commas_or_semicolons(files, tmp_path, sign, end):
+    heights = np.add.outer(np.arange(12) ** 2, np.cos(np.arange(9))) / 7
+    heights[0, :2] = heights[5, 5] = np.nan
+    rows = [sign.join("" if np.isnan(each) else f"{each:.9e}" for each in row) for row in heights]
+    (tmp_path / "heights.csv").write_bytes(f"# heights{end}{end.join(rows)}{end}".encode())
+    with pytest.warns(hystrip.roughness.ScanWarning, match="2.8 % of the points"):
+        found = read_surface(tmp_path / "heights.csv", sizes=(90.0, 120.0), unit="um").heights
+    there = np.isfinite(heights.T)
+    assert found.shape == (9, 12) and np.allclose(found[there], 1e-6 * heights.T[there], rtol=1e-8)
+
+
+@pytest.mark.parametrize("text", ["x,z\n" + "1,2\n" * 9, "1,2,3\n" * 9 + "1,2\n", "1,,3\n" * 9 + "1,2\n", "1;b;3\n" * 9])
+def test_other_tables_are_no_matrix(files, tmp_path, text):
+    (tmp_path / "table.csv").write_text(text)
+    with pytest.raises(hystrip.InputError):
+        read_surface(tmp_path / "table.csv", sizes=(20.0, 20.0), unit="um")
 
 
 def test_a_byte_order_mark_hides_no_number(files, tmp_path):

@@ -22,6 +22,8 @@ from .units import Units, lacks_lengths, units_of
 _FEW = 0.02
 #: a number with a decimal comma or without decimals, or an undefined one
 _NUMBER = re.compile(rb"[-+]?\d+(,\d+)?(e[-+]?\d+)?|nan|bad", re.IGNORECASE)
+#: a line of a matrix, or a remark
+_OF_MATRIX = re.compile(rb"[-+\d.eE\s,;]*(?:nan[-+\d.eE\s,;]*)*|#.*", re.IGNORECASE)
 #: bytes of a file in which they are looked for
 _HEAD = 100_000
 
@@ -65,7 +67,7 @@ def read_surface(
         is_other = ": this is a folder, a pipe or a device" if os.path.exists(where) else ""
         raise InputError(where, where, f"a file with a measured surface{is_other}")
     try:
-        with _quiet(), topographies.open_topography(_with_points(where)) as reader:
+        with _quiet(), _opened(topographies, where) as reader:
             found = reader.default_channel if channel is None else _channel(reader, channel, where)
             options: dict[str, Any] = {} if found.index == reader.default_channel.index else {"channel_index": found.index}
             options |= _lengths(found, sizes, where)
@@ -82,7 +84,7 @@ def read_surface(
         allowed = "a measured surface, with sizes and unit in the file or else given (--size, --unit), not both"
         if type(error).__name__ == "CannotDetectFileFormat":
             said = "no format that SurfaceTopography knows"
-            allowed += "; a matrix as text has blanks or tabs between numbers and nan for undefined points"
+            allowed += "; a matrix as text has blanks, tabs, commas or semicolons between numbers and nan for undefined points"
         raise InputError(where, said, allowed) from None
 
 
@@ -93,6 +95,21 @@ def _quiet() -> Iterator[None]:
         for category in (RuntimeWarning, ImportWarning):
             warnings.simplefilter("ignore", category)
         yield
+
+
+def _opened(topographies: Any, where: str) -> Any:
+    """The file, opened; a matrix of numbers that commas or semicolons part as if tabs did."""
+    try:
+        return topographies.open_topography(_with_points(where))
+    except topographies.Exceptions.CannotDetectFileFormat:
+        with open(where, "rb") as file:
+            data = file.read().removeprefix(codecs.BOM_UTF8)
+        separator = next((each for each in (b";", b",") if each in data[:_HEAD]), None)
+        if separator is None or not all(map(_OF_MATRIX.fullmatch, data.splitlines())):
+            raise
+        data = re.sub(rb"(?m)%b[ \t]*\r?$" % separator, b"", data)
+        data = re.sub(rb"(?m)(?:^|(?<=%b))[ \t]*(?=%b)" % (separator, separator), b"nan", data)
+        return topographies.open_topography(io.BytesIO(data.replace(separator, b"\t")))
 
 
 def _with_points(where: str) -> Any:

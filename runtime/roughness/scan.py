@@ -49,7 +49,10 @@ class Scan:
         _refuse_marks(heights)
         if np.ptp(heights) > sizes.max():
             what = f"heights that differ by {np.ptp(heights):.4g} m on a scan of {sizes.max():.4g} m"
-            raise InputError("scan.heights", what, f"heights that differ by less than that: check the units{_after(self.units)}")
+            allowed = f"heights that differ by less than that: check the units{_after(self.units)}"
+            if "as given" in self.units:  # --unit is one for both
+                allowed += "; text may state that of its heights in a line above: # Value units: um"
+            raise InputError("scan.heights", what, allowed)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "sizes", tuple(sizes.tolist()))
 
