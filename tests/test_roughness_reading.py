@@ -236,6 +236,7 @@ def test_a_number_that_marks_what_was_not_measured_is_refused():
 def test_command_writes_a_scene_that_loads(run, files, tmp_path):
     status, out, err = run("levels", files / "scan.nc", "--pressure", "0.1 MPa")
     assert (status, err) == (0, "") and "left out" in out and "lengths in µm as the file says" in out
+    assert "note       material, adhesion, velocity and rtol are those of `hystrip init`" in out
     assert sorted(path.name for path in (tmp_path / "hystrip-out").glob("[!.]*")) == ["scan.levels.toml", "scan.spectrum.png"]
     scene = load_scene(tmp_path / "hystrip-out/scan.levels.toml")
     assert np.allclose([(level.l, level.h) for level in scene.levels], LEVELS, rtol=1e-5)

@@ -63,7 +63,7 @@ def command(
     from ..scene.load import parse_toml, scene_text
     from ..tables import about_version, write_csv
     from .quantities import metres, pascals
-    from .scene_options import settings
+    from .scene_options import left_to_the_user, settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
@@ -124,4 +124,6 @@ def command(
         say(f"note       stiffness per area is G over the length. {SHEAR}")
     if series.rms > POOR:
         say(f"note       poor fit: {series.quality}")
+    for note in left_to_the_user(scene if writes_scene else "", "material"):
+        say(note)
     say_written(out / name for name in files)

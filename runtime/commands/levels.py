@@ -48,7 +48,7 @@ def command(
     from ..scene.errors import located
     from ..scene.load import scene_text
     from .quantities import metres, pascals
-    from .scene_options import settings
+    from .scene_options import left_to_the_user, settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
@@ -76,5 +76,5 @@ def command(
             from ..plots import roughness_levels, save
 
             save(roughness_levels(found, scan), files.path(names[1]))
-    say(f"{scan.report()}\n{found.report()}")
+    say("\n".join([scan.report(), found.report(), *left_to_the_user(scene, "levels")]))
     say_written(out / name for name in names)

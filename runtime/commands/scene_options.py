@@ -21,3 +21,11 @@ def settings(scene: str, pressure: float | None, title: str | None, named: str) 
     if pressure is not None:
         found["pressure"] = pressure
     return found
+
+
+def left_to_the_user(scene: str, replaced: str) -> list[str]:
+    """What to say of a scene made from the starter: what else in it than the table that was ``replaced`` is not the user's."""
+    if scene != STARTER:
+        return []
+    tables = ", ".join(each for each in ("material", "adhesion", "levels") if each != replaced)
+    return [f"note       {tables}, velocity and rtol are those of `hystrip init`: edit them, or name a --scene of yours"]
