@@ -120,6 +120,11 @@ REFUSED = {
     "points or thousands": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n", "got '2.100'; .*read in one way"),
     "both in threes": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;1,210\n2;2.200;220\n", "read in one way"),
     "no frequency": ("remark\nTime;G' [MPa];G'' [MPa]\n1;2;1\n", "line 2: got .*in this row of names also frequency or omega$"),
+    "logarithms": ("log f [Hz];log E' [Pa];log E''\n1;6;5\n", "line 1: .*also frequency .*themselves where 'log f .Hz.' has log"),
+    "a logarithm": (
+        "log10 frequency;E' [Pa];E'' [Pa]\n1;6;5\n",
+        "also frequency or omega; the numbers .* 'log10 frequency' has log",
+    ),
     "no loss": ("f, Hz;E' [MPa];Elost [MPa]\n1;2;1\n", "line 1: got .*also one more of storage, loss .*tan delta or delta$"),
     "no moduli": ("f, Hz;Ep [MPa];Edp [MPa]\n1;2;1\n", "line 1: got .*also two of storage, loss"),
     "kinds that contradict": ("f [Hz];E' [MPa];G'' [MPa]\n1;2;1\n2;3;2\n", "both of E or both of G"),

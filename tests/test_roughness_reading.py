@@ -159,6 +159,19 @@ def test_a_matrix_may_have_commas_or_semicolons(files, tmp_path, sign, end):
     assert found.shape == (9, 12) and np.allclose(found[there], 1e-6 * heights.T[there], rtol=1e-8)
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("".join(f"{i} {j} 1.5\n" for i in range(9) for j in range(9) if i != j), "a matrix of 3 x 72.*not measured as nan"),
+        ("", "no point"),
+    ],
+)
+def test_points_that_fill_no_grid_are_said(files, tmp_path, text, said):
+    (tmp_path / "points.xyz").write_text(text)
+    with pytest.raises(hystrip.InputError, match=f"points.xyz: got '{said}"):
+        read_surface(tmp_path / "points.xyz", unit="um")
+
+
 @pytest.mark.parametrize("text", ["x,z\n" + "1,2\n" * 9, "1,2,3\n" * 9 + "1,2\n", "1,,3\n" * 9 + "1,2\n", "1;b;3\n" * 9])
 def test_other_tables_are_no_matrix(files, tmp_path, text):
     (tmp_path / "table.csv").write_text(text)

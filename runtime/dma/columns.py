@@ -11,6 +11,7 @@ from .pairs import PAIRS
 
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*/?\s*[\[({<](?P<unit>[^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])}>]$")
 _SLASHED = re.compile(r"^(?P<name>.+?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)$")
+_LOGARITHM = re.compile(r"\W*(log|lg|ln)(10|_|\W)", re.IGNORECASE)
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
 
 #: names as they stand after ``_plain``: without spaces, signs and case, primes as ' and "
@@ -77,9 +78,13 @@ def lacking(names: list[str]) -> tuple[int, str]:
     roles = {column.role for column in columns_of(names)}
     frequency, moduli = bool(roles & {"frequency", "omega"}), max(len(roles & set(pair)) for pair in PAIRS)
     words = [] if frequency else ["frequency or omega"]
+    logarithms = [name for name in names if _LOGARITHM.match(name)]
     if moduli < 2:
         words.append(f"{'one more' if moduli else 'two'} of storage, loss (E', E'' or G', G''), |E*|, and tan delta or delta")
-    return 3 - frequency - moduli, "; ".join(words)
+    if logarithms:
+        words.append(f"the numbers themselves where {logarithms[0]!r} has logarithms")
+    missing = 3 - frequency - moduli
+    return min(missing, 2) if len(logarithms) > 1 else missing, "; ".join(words)  # of these it is known what is wrong
 
 
 def factor(column: Column, where: str) -> float:

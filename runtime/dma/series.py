@@ -78,7 +78,7 @@ class PronySeries:
         return (
             f"{100 * self.rms:.2g} % rms between {low:.4g} and {high:.4g} Hz (storage {100 * self.rms_storage:.2g} %, loss "
             f"{100 * self.rms_loss:.2g} %), at most {100 * self.worst:.2g} % at {self.worst_at:.4g} Hz, with {len(self.times)} "
-            f"relaxation times"
+            f"relaxation time{'s' if len(self.times) > 1 else ''}"
         )
 
     @property

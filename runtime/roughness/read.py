@@ -69,6 +69,7 @@ def read_surface(
     try:
         with _quiet(), _opened(topographies, where) as reader:
             found = reader.default_channel if channel is None else _channel(reader, channel, where)
+            _refuse_lists(found.nb_grid_pts, where)
             options: dict[str, Any] = {} if found.index == reader.default_channel.index else {"channel_index": found.index}
             options |= _lengths(found, sizes, where)
             units = units_of(reader, found, unit, where)
@@ -126,6 +127,15 @@ def _with_points(where: str) -> Any:
 def _has_decimal_commas(line: bytes) -> bool:
     words = line.replace(b";", b" ").split()
     return len(words) > 1 and b"," in line and all(_NUMBER.fullmatch(word) for word in words)
+
+
+def _refuse_lists(shape: tuple[int, ...], where: str) -> None:
+    """Refuse what a reader takes for a matrix of few columns: points that fill no grid; and a file without a point."""
+    if 0 in shape:
+        raise InputError(where, "no point", "a file with a measured surface")
+    if len(shape) == 2 and min(shape) <= 3 < max(shape):
+        allowed = "a matrix of at least 8 x 8; rows of x, y, height fill an even grid, what was not measured as nan"
+        raise InputError(where, f"a matrix of {shape[0]} x {shape[1]}", allowed)
 
 
 def _channel(reader: Any, name: str, where: str) -> Any:
