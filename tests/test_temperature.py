@@ -222,7 +222,8 @@ def test_sweep_over_temperature_and_moduli(run, tmp_path):
         SCENE.replace('"104 °F"', '["20 °C", "40 °C"]').replace("1.0\n", "[1.0, 10.0]\n", 1), encoding="utf-8"
     )
     done = hystrip.sweep(tmp_path / "hot.toml", over={"material.E": [2e6, 3e6]}, out=tmp_path / "out")
-    assert done.plan.shape == (2, 2, 2) and [axis.name for axis in done.plan.axes] == ["E", "velocity", "temperature"]
+    assert done.plan.shape == (2, 2, 2) and [axis.name for axis in done.plan.axes] == ["E", "temperature", "velocity"]
+    assert done.plan.points_of_a_call == 2  # of velocities, which come last: the solver takes them together
     scene = parse_scene(SCENE)
     for row in range(8):
         E, V, T = (done.columns[name][row] for name in ("E [Pa]", "velocity [m/s]", "temperature [K]"))

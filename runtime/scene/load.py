@@ -127,7 +127,8 @@ def refuse_ambiguous(values: dict[str, Any]) -> None:
 
 
 def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
-    """Dotted key and value of every quantity of a validated scene: levels, material and its shift, adhesion, load, velocity."""
+    """Dotted key and value of every quantity of a validated scene: levels, material and its shift, adhesion, temperature; load
+    and velocity, of which the solver takes arrays, come last."""
     tables = [(f"levels[{index}]", level) for index, level in enumerate(values["levels"])]
     tables += [("material", values["material"]), ("material.shift", values["material"]["shift"] or {})]
     tables += [("adhesion", values["adhesion"] or {})]
@@ -137,7 +138,7 @@ def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
                 yield f"{path}.{key}", each
             elif isinstance(each, list):  # moduli and times: every entry is a quantity
                 yield from ((f"{path}.{key}[{index}]", entry) for index, entry in enumerate(each))
-    for key in ("pressure", "penetration", "velocity", "temperature"):
+    for key in ("temperature", "pressure", "penetration", "velocity"):
         if values[key] is not None:
             yield key, values[key]
 
