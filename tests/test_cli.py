@@ -77,8 +77,9 @@ def test_sweep_of_a_scene(run, tmp_path):
     status, out, err = run("sweep", "mine.toml")
     assert (status, err) == (0, "") and out.split("\n")[0] == "4 points"
     assert len(rows(tmp_path / "hystrip-out/mine.sweep.csv")) == 4
-    status, out, err = run("sweep", "mine.toml", "--netcdf")
+    status, out, err = run("sweep", "mine.toml", "--netcdf", "--plot")
     assert (status, err) == (0, "") and "1 of 1 batches from before" in out and "wrote hystrip-out/mine.sweep.nc" in out
+    assert "wrote hystrip-out/mine.sweep.png" in out and (tmp_path / "hystrip-out/mine.sweep.png").read_bytes()[1:4] == b"PNG"
 
 
 def test_solve_and_sweep_leave_each_others_tables_alone(run, tmp_path):

@@ -151,6 +151,7 @@ print(float(hystrip.solve(material, adhesion, levels, pressure=100.0, velocity=5
         ("matplotlib", ["solve", "paper_fig6"], "plot"),
         ("distributed", ["sweep", "paper_fig7", "--scheduler", "tcp://127.0.0.1:9"], "dask"),
         ("xarray", ["sweep", "paper_fig7", "--netcdf"], "dataset"),
+        ("matplotlib", ["sweep", "paper_fig7", "--plot"], "plot"),
         ("SurfaceTopography", ["levels", "scan.nc", "--pressure", "1e5"], "roughness"),
         ("matplotlib", ["fit", "dma.csv"], "plot"),
         ("sympy", ["check"], "regenerate"),

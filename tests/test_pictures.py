@@ -278,6 +278,42 @@ def test_a_map_of_one_colour_says_how_even_the_pressure_is(p, h, said):
     assert texts == ([] if said is None else [f"the same pressure\n{said}"]) and inside(figure)
 
 
+def scene_of(folder):
+    """A surface in complete contact, in closed form."""
+    (folder / "s.toml").write_text(
+        'pressure = 1e9\nvelocity = 1e-3\nedge = "constitutive"\n[material]\nK = 1e9\nT_eps = 1e-2\nT_sigma = 1e-4\n'
+        '[material.shift]\nmodel = "Arrhenius"\nE_a = 1e5\nT_ref = 293.15\n[[levels]]\nl = 1e-5\nh = 1e-6\n'
+    )
+    return folder / "s.toml"
+
+
+def test_a_sweep_is_drawn_over_what_has_most_values(tmp_path):
+    T, V = np.linspace(273.15, 313.15, 9), np.geomspace(1e-6, 1, 8)
+    done = hystrip.sweep(scene_of(tmp_path), over={"temperature": T, "velocity": V}, out=tmp_path)
+    figure = done.plot()
+    mu, contact = figure.axes
+    assert contact.get_xlabel() == "temperature (°C)" and contact.get_xscale() == "linear" and inside(figure)
+    lines = [line for line in mu.lines if line.get_label().startswith("velocity")]
+    assert len(lines) == 6 and lines[0].get_label() == "velocity 1e-06 m/s"
+    assert "6 of 8 combinations are drawn" in [text.get_text() for text in figure.legends[0].get_texts()]
+    table = np.reshape(done.columns["mu"], (9, 8))
+    assert lines[0].get_xdata() == pytest.approx(T - 273.15) and np.array_equal(lines[0].get_ydata(), table[:, 0])
+    assert np.array_equal(lines[-1].get_ydata(), table[:, -1])
+
+
+def test_points_of_a_list_failed_pulled_off_or_not_converged_are_drawn_as_such(tmp_path):
+    K = np.array([1e9, 2e9, 3e9, 5e9, 1e12])
+    done = hystrip.sweep(scene_of(tmp_path), over={"material.K": K, "levels[0].h": K / 1e15}, combine="list", out=tmp_path)
+    columns = {name: np.array(values) for name, values in done.columns.items()}
+    columns["mu"][0] = columns["pressure [Pa]"][0] = np.nan
+    columns["pulled off"][1], columns["converged"][3] = 1, 0
+    panel, below = dataclasses.replace(done, columns=columns).plot().axes
+    line, marks = panel.lines[:2]
+    assert below.get_xlabel() == "material.K (Pa/m)" and below.get_xscale() == "log" and not panel.figure.legends
+    assert np.isfinite(line.get_ydata()).tolist() == [False, False, True, True, True]
+    assert marks.get_xdata() == pytest.approx([5e9]) and marks.get_ydata() == line.get_ydata()[3]
+
+
 def test_stresses_along_a_strip_are_those_of_the_levels():
     result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=100.0, velocity=5e-3, rtol=1e-3)
     cell = cell_of(result, 0, 1)

@@ -19,6 +19,7 @@ def command(
     workers: int = typer.Option(1, "--workers", help="Local processes."),
     scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
     batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a few seconds of work]."),
+    plot: bool = typer.Option(False, "--plot", help="Draw mu and contact over the swept quantity of most values (PNG)."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
@@ -41,8 +42,10 @@ def command(
     if netcdf:
         require("xarray", "dataset", "writing netCDF")
         require("h5netcdf", "dataset", "writing netCDF")
+    if plot:
+        require("matplotlib", "plot", "drawing")
     text, name = scene_text(scene)
-    more = [f"{name}.sweep.nc"] * netcdf
+    more = [*[f"{name}.sweep.nc"] * netcdf, *[f"{name}.sweep.png"] * plot]
     refuse_other_origin(out, more, scene)
     swept = over_of(over, is_half_space(parse_toml(text))) if over else {}
     try:
@@ -54,9 +57,14 @@ def command(
     except (KeyboardInterrupt, Terminated):
         say("hystrip: finished batches are kept; the same command goes on from there", err=True)
         raise
-    if netcdf:
+    if more:
         with outputs_from(scene, out, more) as files:
-            write_netcdf(done.to_dataset(), files.path(more[0]))
+            if netcdf:
+                write_netcdf(done.to_dataset(), files.path(more[0]))
+            if plot:
+                from ..plots import save
+
+                save(done.plot(), files.path(more[-1]))
     again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
     say(f"{done.plan.size} points{again}")
     if done.failed:

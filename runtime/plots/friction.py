@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import InputError
 from ..extras import require
 from ..tables import parts_of_mu
+from .axis import make_logarithmic, over_decades, scale
 from .legend import legend_above
 from .style import COLUMN, DASHES, OKABE_ITO, stacked, styled
 from .units import length, unit_for
@@ -111,39 +112,11 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
         panels[0].plot([], [], " ", label=f"{shown.size} of {rows} loads are drawn")
     low, high = velocity[shown].min(), velocity[shown].max()
     moving = np.unique(velocity[shown][velocity[shown] > 0])
-    _scale(panels[-1], low, high, 0 < 10 * low <= high * (1 + 1e-12))
-    if low == 0 and _over_decades(moving):
+    scale(panels[-1], low, high, 0 < 10 * low <= high * (1 + 1e-12))
+    if low == 0 and over_decades(moving):
         panels[-1].set_xscale("symlog", linthresh=moving[0], linscale=0.5)
     panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
     return _with_legend(panels, result)
-
-
-def _over_decades(x: np.ndarray) -> bool:
-    """Whether values in ascending order are positive and spaced as on a logarithmic axis rather than a linear one."""
-    if not x.size:
-        return False
-    low, high = x[0], x[-1]
-    return bool(0 < 10 * low <= high * (1 + 1e-12) and np.median(x) - np.sqrt(low * high) < (low + high) / 2 - np.median(x))
-
-
-def _logarithmic(panel: Any, which: str, low: float, high: float) -> None:
-    """Make an axis, ``"x"`` or ``"y"``, logarithmic, with labels at the least number of places."""
-    from matplotlib.ticker import LogFormatterSciNotation, LogLocator
-
-    panel.set(**{f"{which}scale": "log"})
-    if high < 100 * low:
-        axis = getattr(panel, f"{which}axis")
-        axis.set_minor_locator(LogLocator(subs=(2, 5)))
-        axis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
-
-
-def _scale(panel: Any, low: float, high: float, logarithmic: bool) -> None:
-    """Limits of the horizontal axis and its kind, with labels that do not overlap."""
-    if logarithmic:
-        _logarithmic(panel, "x", low, high)
-    else:
-        panel.locator_params(axis="x", nbins=5)
-    panel.set_xlim(low, high)
 
 
 def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
@@ -151,7 +124,7 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
     load = np.ravel(getattr(result, result.load))
     order = np.argsort(load, kind="stable")
     load = load[order]
-    logarithmic = _over_decades(np.unique(load))
+    logarithmic = over_decades(np.unique(load))
     factor, name = (1.0, unit) if logarithmic else unit_for(unit, load)
     height = 0.75 if len(quantities) == 1 else 0.5 * len(quantities) + 0.1
     panels = stacked(len(quantities), COLUMN, height * COLUMN)
@@ -160,16 +133,16 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
         curves = [(np.ravel(values)[order], style, label) for values, style, label in _curves(result, quantity)]
         drawn = unit_for(quantity.unit, *(values for values, _, _ in curves))
         total = np.sort(curves[0][0][np.isfinite(curves[0][0])])
-        over_decades = logarithmic and _over_decades(total) and not any((values < 0).any() for values, _, _ in curves)
-        if over_decades:
-            _logarithmic(panel, "y", total[0], total[-1])
+        spans = logarithmic and over_decades(total) and not any((values < 0).any() for values, _, _ in curves)
+        if spans:
+            make_logarithmic(panel, "y", total[0], total[-1])
         _draw(panel, quantity, load / factor, curves, drawn, *of_points)
-        if over_decades:
+        if spans:
             low, high = panel.get_ylim()
             panel.set_ylim(max(low, _FAINT * total[0] / drawn[0]), min(high, 2 * total[-1] / drawn[0]))
         if load[0] < 0 < load[-1]:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
-    _scale(panels[-1], load[0] / factor, load[-1] / factor, logarithmic)
+    scale(panels[-1], load[0] / factor, load[-1] / factor, logarithmic)
     panels[-1].set_xlabel(f"{text} ({name})")
     return _with_legend(panels, result)
 
@@ -197,7 +170,7 @@ def _colours(levels: int) -> list[Any]:
     return list(require("matplotlib", "plot", "drawing").colormaps["viridis_r"](np.linspace(0.15, 1, levels)))
 
 
-def _limits_apart_from_the_pole(pressure: np.ndarray, curves: list[np.ndarray]) -> tuple[float, float]:
+def limits_apart_from_the_pole(pressure: np.ndarray, curves: list[np.ndarray]) -> tuple[float, float]:
     """Limits of y without what the pole at zero pressure makes huge."""
     far = np.abs(pressure) >= _APART * np.abs(pressure).max()
     seen = np.concatenate([values[far & np.isfinite(values)] for values in curves])
@@ -225,7 +198,7 @@ def _draw(
     converged where it is ``sure``."""
     pole = quantity is _QUANTITIES["mu"] and pressure.min() <= 0
     if pole:
-        panel.set_ylim(*_limits_apart_from_the_pole(pressure, [values / unit[0] for values, _, _ in curves]))
+        panel.set_ylim(*limits_apart_from_the_pole(pressure, [values / unit[0] for values, _, _ in curves]))
     doubtful, there = x[~sure], np.asarray(curves[0][0], float)[~sure] / unit[0]
     # no line through the pole, nor across the jump at pull-off
     at = np.union1d(_changes(off), _changes(np.sign(pressure)) if pole else []).astype(int)

@@ -26,6 +26,7 @@ from .store import Store
 from .variables import table, variables
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     from pandas import DataFrame
     from xarray import Dataset
 
@@ -64,6 +65,12 @@ class Sweep:
     def failed(self) -> dict[int, str]:
         """Reasons of the points that could not be solved."""
         return {row: reason for row, reason in enumerate(self.columns["failed"]) if reason}
+
+    def plot(self) -> Figure:
+        """A matplotlib Figure of friction and real contact over the swept quantity of most values. Needs the extra ``plot``."""
+        from ..plots.sweep import over_swept
+
+        return over_swept(self)
 
     def to_dataset(self) -> Dataset:
         """The sweep as an xarray Dataset: one dimension for every swept quantity of a grid, ``point`` for a list."""

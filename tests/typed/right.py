@@ -63,7 +63,7 @@ def scenes(folder: Path) -> Dataset:
     """Scene files and sweeps."""
     scene: hystrip.Scene = hystrip.load_scene("paper_fig7")
     sweep: hystrip.Sweep = hystrip.sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder, combine="grid", workers=2)
-    print(scene.solve().mu, scene.velocity, sweep.failed)
+    print(scene.solve().mu, scene.velocity, sweep.failed, sweep.plot().axes)
     return sweep.to_dataset()
 
 
