@@ -199,6 +199,9 @@ def test_table_function_and_data_give_the_same_series():
 def test_poor_fit_warns_with_its_band():
     with pytest.warns(hystrip.dma.FitWarning, match="poor fit: .* rms between 0.01 and 1e\\+06 Hz"):
         series = fit_prony(fractional_zener, band=(1e-2, 1e6), terms=3)
+    assert series.quality.endswith("with 3 relaxation times")
+    with pytest.warns(hystrip.dma.FitWarning, match="with 1 relaxation time$"):
+        fit_prony(fractional_zener, band=(1e-2, 1e6), terms=1)
     # the error is said where it is: slow branches fit well here, or fast ones; nowhere beyond the band
     assert series.fit.error_between(1e-2, 1e6) == max(series.fit.rms) > 0.1
     assert series.fit.error_between(1e7, 1e9) is None and series.fit.low == pytest.approx(1e-2)

@@ -233,5 +233,10 @@ def test_sweep_over_temperature_and_moduli(run, tmp_path):
     (tmp_path / "one.toml").write_text(SCENE, encoding="utf-8")
     status, out, err = run("sweep", "one.toml", "--over", 'material.moduli[0]=["8 MPa", 9e6]', "--over", 'temperature="30 degC"')
     assert (status, err) == (0, "") and "2 points" in out
+    cold = SCENE[: SCENE.index("[material.shift]")] + SCENE[SCENE.index("[material.fit]") :]
+    (tmp_path / "cold.toml").write_text(cold.replace('temperature = "104 °F"\n', ""), encoding="utf-8")
+    for key in ("temperature", "material.shift.C_1"):
+        status, _, err = run("sweep", "cold.toml", "--over", f"{key}=[300, 310]")
+        assert status == 2 and "this one needs a [material.shift]" in err and "did you mean" not in err
     status, _, err = run("sweep", "one.toml", "--over", 'material.moduli[0]=["8 MPa/m"]')
     assert status == 2 and "unit of something else" in err

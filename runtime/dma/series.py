@@ -77,8 +77,8 @@ class PronySeries:
         low, high = self.band
         return (
             f"{100 * self.rms:.2g} % rms between {low:.4g} and {high:.4g} Hz (storage {100 * self.rms_storage:.2g} %, loss "
-            f"{100 * self.rms_loss:.2g} %), at most {100 * self.worst:.2g} % at {self.worst_at:.4g} Hz, with {len(self.times)} "
-            f"relaxation time{'s' if len(self.times) > 1 else ''}"
+            f"{100 * self.rms_loss:.2g} %), at most {100 * self.worst:.2g} % at {self.worst_at:.4g} Hz, with "
+            f"{_times(len(self.times))}"
         )
 
     @property
@@ -154,7 +154,7 @@ class PronySeries:
         low, high = self.band
         lines = [
             f"fitted     {self.points} frequencies, {low:.4g} to {high:.4g} Hz ({np.log10(high / low):.3g} decades)",
-            f"series     {len(self.times)} relaxation times of {self.offered} offered; "
+            f"series     {_times(len(self.times))} of {self.offered} offered; "
             f"{self.kind} relaxed {self.relaxed:.4g} Pa, glassy {self.glassy:.4g} Pa",
             f"residuals  storage {100 * self.rms_storage:.2g} % rms, loss {100 * self.rms_loss:.2g} % rms, "
             f"at most {100 * self.worst:.2g} % (at {self.worst_at:.4g} Hz)",
@@ -171,3 +171,7 @@ class PronySeries:
 
 def _percent(share: float) -> str:
     return f"{100 * share:.2g} %" if share < 10 else "undetermined"
+
+
+def _times(count: int) -> str:
+    return f"{count} relaxation time{'s' if count > 1 else ''}"

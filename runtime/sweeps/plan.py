@@ -207,6 +207,12 @@ def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
 def _put(values: dict[str, Any], key: str, given: Any) -> None:
     known = [*keys_of(values)]
     if key not in known:
+        if (
+            isinstance(key, str)
+            and (key == "temperature" or key.startswith("material.shift."))
+            and not values["material"]["shift"]
+        ):
+            raise InputError("over", key, "a quantity of the scene; this one needs a [material.shift] (WLF or Arrhenius)")
         near = nearest(key, known) if isinstance(key, str) else None
         raise InputError("over", key, f"one of {', '.join(known)}" + (f" (did you mean {near!r}?)" if near else ""))
     array = numbers(key, given, unit_of(key, is_half_space(values)))
