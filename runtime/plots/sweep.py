@@ -49,7 +49,7 @@ def over_swept(sweep: Sweep) -> Figure:
             y = np.where(off[row], np.nan, rows(sweep.columns[column])[row])
             said = ", ".join(_said(axes[n], rows(coordinates[:, n])[row, 0]) for n in others)
             style = {"color": OKABE_ITO[number], "linestyle": DASHES[number % len(DASHES)] if number else "-"}
-            panel.plot(x[order], y[order], marker=".", markersize=3, label=said, **style)
+            panel.plot(x[order], y[order], marker=".", markersize=min(3.0, 90 / count), label=said, **style)
             doubtful = ~sure[row] & np.isfinite(y)
             panel.plot(x[doubtful], y[doubtful], "o", markersize=5, markerfacecolor="none", color="black", zorder=4)
         if column == "mu" and (pressure <= 0).any():
