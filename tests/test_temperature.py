@@ -1,12 +1,14 @@
 """Temperature: times and moduli shift, and nothing else."""
 
 import pickle
+import warnings
 
 import numpy as np
 import pytest
 
 import hystrip
 from hystrip.dma import DynamicModulus, fit_prony
+from hystrip.inputs.shift import ShiftWarning
 from hystrip.plausibility import excited_band, notes
 from hystrip.scene import parse_scene
 from hystrip.tables import about_result
@@ -35,6 +37,17 @@ def test_friction_at_a_temperature_is_that_at_another_velocity_and_load(material
     said = [[line for line in about_result(each) if line.startswith("temperature")] for each in (hot, same)]
     assert said == [["temperature: 313.15 K, at which the material is given"], []]
     assert type(hot.material) is type(material) and material == pickle.loads(pickle.dumps(material))
+
+
+@pytest.mark.parametrize(("T_ref", "odd"), [(20.0, True), (293.15, False), (528.0, True)])
+def test_a_reference_of_no_rubber_is_said(T_ref, odd):
+    """20 was meant in degrees Celsius, 528 in Rankine: times would shift by decades without a word."""
+    material = hystrip.KelvinVoigt(1e9, 1e-3, shift=hystrip.Arrhenius(E_a=1e3, T_ref=T_ref))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=1e4, velocity=1.0, temperature=313.15, rtol=1e-2)
+    assert [each.category for each in said] == [ShiftWarning] * odd
+    assert all(f"shift.T_ref is {T_ref:g} K" in str(each.message) and each.filename == __file__ for each in said)
 
 
 def test_shift_factors_are_the_textbook_ones():
@@ -214,6 +227,14 @@ def test_plausibility_is_said():
     assert hot.fit.high == pytest.approx(1e4 / float(WLF.factor(313.15)))
     result = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=1e7, velocity=[1e-3, 10.0])
     assert result.notes == [beyond] and f"note       {beyond}" in result.summary() and "excited    k V" in result.summary()
+
+
+def test_the_command_line_says_it_once(run, tmp_path):
+    pytest.importorskip("typer")
+    odd = SCENE.replace('"104 °F"', '"40 °C"').replace('"20 degC"', "20")
+    (tmp_path / "odd.toml").write_text(odd, encoding="utf-8")
+    status, _, err = run("solve", "odd.toml")
+    assert status == 0 and err.count("shift.T_ref is 20 K") == 1
 
 
 def test_sweep_over_temperature_and_moduli(run, tmp_path):

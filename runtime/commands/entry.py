@@ -66,12 +66,14 @@ def _say(text: str) -> None:
 
 
 def _show_warnings() -> None:
-    """Warnings of ours as one line, without the place in the code; those of others as ever."""
-    others = warnings.showwarning
+    """Warnings of ours as one line, once each, without the place in the code; those of others as ever."""
+    others, said = warnings.showwarning, set[str]()
 
     def show(message: Warning | str, category: type[Warning], *rest: Any, **options: Any) -> None:
         if category.__module__.startswith("hystrip"):
-            _say(f"warning: {message}")
+            if str(message) not in said:
+                _say(f"warning: {message}")
+            said.add(str(message))
         else:
             others(message, category, *rest, **options)
 

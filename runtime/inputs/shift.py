@@ -1,17 +1,23 @@
 """Time-temperature superposition: how relaxation times and moduli change with temperature."""
 
+import warnings
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
 from ..errors import InputError
+from ..plausibility import COLDEST, HOTTEST
 from .checks import number, numbers
 
 #: gas constant, J/(mol K) (exact since 2019)
 R_GAS = 8.314462618
 #: decades that a shift may span: beyond, no time and no modulus is one of the material's
 _FURTHEST = 30.0
+
+
+class ShiftWarning(UserWarning):
+    """A shift whose reference is a temperature of no rubber, as degrees taken for kelvin are."""
 
 
 class Shift(Protocol):
@@ -107,11 +113,15 @@ class Arrhenius:
 
 
 def factors_at(shift: Shift | None, temperature: Any) -> tuple[float, float]:
-    """``a_T`` and ``b_T`` at one temperature, K. Raises ``InputError``, also where there is no shift."""
+    """``a_T`` and ``b_T`` at one temperature, K. Raises ``InputError``, also where there is no shift; warns (``ShiftWarning``) of
+    a reference that is no temperature of rubber."""
     T = number("temperature", temperature, "K", 0, strict=True)
     if shift is None:
         allowed = "None, or a material with a shift (hystrip.WLF, hystrip.Arrhenius; in a scene [material.shift])"
         raise InputError("temperature", temperature, allowed)
+    if not COLDEST <= shift.T_ref <= HOTTEST:
+        usual = f"usual are {COLDEST:g} to {HOTTEST:g} K; degrees have to be given in K, or in a scene with their unit"
+        warnings.warn(f"shift.T_ref is {shift.T_ref:g} K; {usual}", ShiftWarning, stacklevel=4)
     return float(shift.factor(T)), float(shift.modulus_factor(T))
 
 
