@@ -74,9 +74,9 @@ class Search:
             self._newton(i[k[seek]], edges[:, seek])
         self.z[:, i] += near.dz
         self.engaged[i] = near.engaged
-        left = np.flatnonzero(~self._proven(i[k], edges))
-        if number and left.size:
-            self._move(i[k[left]], edges[:, left], number >= _FULL)
+        left = np.flatnonzero(~self._proven(i[k], edges) & ((number > 0) | np.isnan(self.edges[0, i[k]])))
+        if left.size:
+            self._move(i[k[left]], edges[:, left], number)
         self.active = i[going & (self.kind[i] != ORBIT) & ~self._stays(i, number)]
 
     def _stays(self, i, number: int) -> np.ndarray:
@@ -115,21 +115,21 @@ class Search:
             good[k] = finite & (radius <= 1 + STABLE)
         return good
 
-    def _move(self, i, edges, full: bool) -> None:
-        """To the orbits forced by the windows of the ``edges``, or to the last of a chain of them."""
+    def _move(self, i, edges, number: int) -> None:
+        """To the orbits forced by the windows of the ``edges``, or to the last of a chain of them; at first to the orbits: slow
+        modes stand still in a march, and its edges may be far from those of any orbit."""
         orbit, good = Forced.settled(self.kernel, self.s.take(i), edges, not self.rising)
         i, orbit = i[good], orbit.take(np.flatnonzero(good))
-        if not i.size:
-            return
-        with np.errstate(all="ignore"):
-            chain, clear = self._chain(i, orbit, full)
-        reached = np.cumprod(clear, axis=0).sum(axis=0)
-        # shorter links where few hold, longer ones where all do
-        factor = np.select((reached == 0, reached < 4, reached >= _WINDOWS - 1), (0.125, 0.5, 4.0), 1.0)
-        self.share[i] = np.minimum(self.share[i] * factor, _SHARE)
-        last = chain.take(reached * i.size + np.arange(i.size))
-        self.z[:, i], self.engaged[i] = last.at(self.s.start[i])
-        self._proven(i, last.edges)
+        if number and i.size:
+            with np.errstate(all="ignore"):
+                chain, clear = self._chain(i, orbit, number >= _FULL)
+            reached = np.cumprod(clear, axis=0).sum(axis=0)
+            # shorter links where few hold, longer ones where all do
+            factor = np.select((reached == 0, reached < 4, reached >= _WINDOWS - 1), (0.125, 0.5, 4.0), 1.0)
+            self.share[i] = np.minimum(self.share[i] * factor, _SHARE)
+            orbit = chain.take(reached * i.size + np.arange(i.size))
+        self.z[:, i], self.engaged[i] = orbit.at(self.s.start[i])
+        self._proven(i, orbit.edges)
 
     def _chain(self, i, orbit: Forced, full: bool):
         """Orbits forced by windows, strips after strips, that grow from those of ``orbit``, and which links hold between them."""
