@@ -1,10 +1,14 @@
 """What a strip costs by the number of relaxation times: the solver for any number, in batches.
 
     python tools/modes_cost.py [--strips 4000] [--times 1 2 3]
+    python tools/modes_cost.py --of-one [--strips 10000] [--times 2 15]
 
 Random strips in one batch, as `tools/modes.py` draws them, over the same forty materials for each number of times; CPU
 microseconds a strip, the median of three. Linear growth is n times the cost with one time; exits with 1 where it is
 exceeded, or a strip could not be certified.
+
+``--of-one``: ten thousand strips of all regimes by `hystrip.solve_strip`, with times over twelve decades and with times that are
+all but alike, over the cost of the same strips with one time; exits with 1 above 20 times with two and 60 with fifteen.
 """
 
 import argparse
@@ -20,11 +24,15 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 import mode_scenes as ms
 
+import hystrip
 from hystrip.generated import generalised as kernel
 from hystrip.inputs.model import modes_of
 from hystrip.orbit.modes import crossing
 from hystrip.orbit.modes.engine import solve_modes
 from hystrip.orbit.modes.problem import ModeStrips
+
+#: a strip may cost so many times what it does with one time, by number of times
+LIMITS = {2: 20, 15: 60}
 
 
 def strips(n, wide, count, materials=40):
@@ -52,6 +60,35 @@ def cost(n, wide, count):
     return np.median(seconds) / (2 * count) * 1e6, sum(steps) / (2 * count), lost
 
 
+def public_cost(times, branch, count):
+    """Microseconds a strip of ``hystrip.solve_strip``, glassy moduli a hundred times the relaxed one, the median of three."""
+    rng = np.random.default_rng(5)
+    A, share, speed = 10.0 ** rng.uniform(-7, -6.3, count), rng.uniform(-0.5, 2.5, count), 10.0 ** rng.uniform(-2, 2, count)
+    n, V = len(times), speed * 1e-5 / (2 * np.pi * 1e-2)
+    material = hystrip.Prony(K=1e9, moduli=np.full(n, 99e9 / n), times=times)
+    seconds = []
+    for _ in range(3):
+        start = time.process_time()
+        hystrip.solve_strip(
+            material, hystrip.Dugdale(p_0=1e2, delta_0=1e-8), l=1e-5, A=A, D=share * A, V=V, edge="constitutive", branch=branch
+        )
+        seconds.append(time.process_time() - start)
+    return np.median(seconds) / count * 1e6
+
+
+def against_one(numbers, count):
+    """Print the cost by number of times over that with one; whether it is within the limits."""
+    within = True
+    for branch in ("unloading", "loading"):
+        one = public_cost([1e-2], branch, count)
+        for n in numbers:
+            for apart, times in (("decades", 10.0 ** np.linspace(-8, 4, n)), ("alike", 1e-2 * 1.5 ** (np.arange(n) - n / 2))):
+                micro = public_cost(times, branch, count)
+                print(f"{branch}, n = {n}, {apart}: {micro:.0f} microseconds, {micro / one:.1f} times one time", flush=True)
+                within &= micro <= one * LIMITS.get(n, np.inf)
+    return within
+
+
 def _counted(safe_step, steps, ahead, *parts):
     steps.append(ahead.shape[1])
     return safe_step(ahead, *parts)
@@ -59,14 +96,17 @@ def _counted(safe_step, steps, ahead, *parts):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--strips", type=int, default=4000)
-    parser.add_argument("--times", type=int, nargs="+", default=[1, 2, 3], help="numbers of relaxation times")
+    parser.add_argument("--of-one", action="store_true", help="over the cost with one time")
+    parser.add_argument("--strips", type=int)
+    parser.add_argument("--times", type=int, nargs="+", help="numbers of relaxation times")
     options = parser.parse_args()
+    if options.of_one:
+        return 0 if against_one(options.times or [2, 15], options.strips or 10_000) else 1
     failed = False
     for wide in (False, True):
         base = None
-        for n in options.times:
-            micro, steps, lost = cost(n, wide, options.strips)
+        for n in options.times or [1, 2, 3]:
+            micro, steps, lost = cost(n, wide, options.strips or 4000)
             base = base or micro
             print(f"{'wide' if wide else 'near 1'}, n = {n}: {micro:.0f} microseconds, "
                   f"{steps:.0f} steps of marches a strip, {micro / base:.2f} times n = 1; {lost} uncertified",
