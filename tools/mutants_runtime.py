@@ -154,6 +154,13 @@ MUTANTS = (
         "return self._cells(u, which), 0.1 * self._errors",
         "test_lower_levels.py",
     ),
+    Mutant(
+        "a break changes friction by what it does right where it is said to be",
+        "level/law.py",
+        "zip(sides, (p - shift, p + shift)",
+        "zip(sides, (p, p)",
+        "test_error_budget.py",
+    ),
     Mutant("a tenth of a law's error in its own estimate", "level/law.py", "1.5 * error", "0.1 * error", "test_lower_levels.py"),
     Mutant("the tie of a snap is a matter of rounding", "orbit/groups.py", "(1 - ROUNDING)", "(1 + ROUNDING)", "test_limits.py"),
     Mutant(
