@@ -139,6 +139,11 @@ def test_what_can_be_read_wrongly_is_refused(tmp_path, name):
     assert "table.csv" in str(refused.value)
 
 
+def test_blanks_in_a_name_take_no_time(tmp_path):
+    (tmp_path / "wide.csv").write_text(f"f [Hz],G' [Pa],G'' [Pa],a{' ' * 5000}x\n1,1e6,1e5,1\n10,2e6,2e5,1\n100,3e6,2e5,1\n")
+    assert read_dma(tmp_path / "wide.csv").storage.tolist() == [1e6, 2e6, 3e6]
+
+
 def test_one_frequency_in_python_is_refused():
     with pytest.raises(hystrip.InputError, match="dma.omega: got 5.0; allowed: at least two different frequencies"):
         DynamicModulus([5.0, 5.0], [1e6, 1e6], [1e5, 1e5])

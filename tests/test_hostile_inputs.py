@@ -169,6 +169,13 @@ def test_what_is_no_path(read, field, given, tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
+class Lying(list):
+    """An empty list that says it has two entries."""
+
+    def __len__(self):
+        return 2
+
+
 SLS = dict(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 DMA = dict(omega=[1.0, 10.0, 100.0], storage=[1e6, 2e6, 3e6], loss=[1e5, 2e5, 1e5])
 CALLS = [
@@ -182,6 +189,7 @@ CALLS = [
     ("endless levels", lambda: surface(levels=itertools.repeat(hystrip.Level(1e-6, 1e-7))), "levels"),
     ("endless velocity", lambda: surface(velocity=itertools.count()), "velocity"),
     ("endless K", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": itertools.count(1)})), "material.K"),
+    ("loss that says it has entries", lambda: DynamicModulus(**(DMA | {"loss": Lying()})), "dma"),
     ("K of many digits", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": 10**5000})), "material.K"),
     ("a range without end", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": range(10**12)})), "material.K"),
     ("nested K", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": nested(5000)})), "material.K"),

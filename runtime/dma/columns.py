@@ -125,7 +125,7 @@ def with_unit_below(column: Column, below: str, where: str) -> Column:
 
     Raises ``InputError`` if the name has another, or what stands below is none.
     """
-    bracketed = _BRACKETED.match(below)
+    bracketed = _BRACKETED.match(_single_spaced(below))
     below = bracketed["unit"] if bracketed and not bracketed["name"] else below
     if column.role == "set" or not below:
         return column
@@ -167,11 +167,17 @@ def _converted(unit: str, to: str, place: str, wanted: str) -> float:
 
 def _split(written: str) -> tuple[str, str]:
     """Name and unit of a heading such as ``E' [MPa]``, ``f / Hz``, ``omega in rad/s``, ``Frequency, Hz``."""
+    plain = _single_spaced(written)
     for form in (_BRACKETED, _SLASHED, _COMMA):
-        match = form.match(written.strip())
+        match = form.match(plain)
         if match and match["name"]:
             return match["name"], match["unit"].strip()
     return written, ""
+
+
+def _single_spaced(text: str) -> str:
+    """With one space for each run of them: the patterns take the cube of a run's length."""
+    return " ".join(text.split())
 
 
 def _plain_unit(unit: str) -> str:

@@ -29,7 +29,7 @@ def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict:
     allowed = _allowed(unit, minimum, strict)
     if isinstance(value, (str, bytes, bool)) or value is None:
         raise InputError(field, value, allowed)
-    parts = value if isinstance(value, (list, tuple)) and value and not isinstance(value[0], (int, float)) else ()
+    parts = value if isinstance(value, (list, tuple)) and not isinstance(next(iter(value), 0.0), (int, float)) else ()
     if any(map(has_unit, (value, *parts))):
         raise InputError(field, value, f"{allowed}, without a unit of its own: convert it first")
     if "numpy.ma" in sys.modules and np.ma.is_masked(value):  # loading it takes longer than most calls
