@@ -159,6 +159,17 @@ def test_a_matrix_may_have_commas_or_semicolons(files, tmp_path, sign, end):
     assert found.shape == (9, 12) and np.allclose(found[there], 1e-6 * heights.T[there], rtol=1e-8)
 
 
+def test_commas_that_may_be_decimal_signs_part_no_numbers(tmp_path):
+    """``12,5,13,2`` is two heights or four."""
+    rows = [
+        ",".join(f"{each:.1f}".replace(".", ",") for each in row)
+        for row in 10 + np.add.outer(np.arange(12) / 4, np.arange(9) / 3)
+    ]
+    (tmp_path / "heights.csv").write_text("# version 1.0\n" + "\n".join(rows) + "\n")
+    with pytest.raises(hystrip.InputError, match="whole numbers parted by commas.*may be decimal signs"):
+        read_surface(tmp_path / "heights.csv", sizes=(90.0, 120.0), unit="um")
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

@@ -20,7 +20,7 @@ _SWAPPED = str.maketrans(".,", ",.")
 _THOUSANDS = {sign: re.compile(rf"[-+]?[1-9]\d{{0,2}}(\{sign}\d{{3}})+") for sign in ",."}
 #: thousands parted by blanks or apostrophes, which no decimal sign looks like
 _PARTED = re.compile(r"[-+\u2212]?\d{1,3}([\s'’])\d{3}(\1\d{3})*([.,]\d*)?([eE][-+]?\d+)?")
-
+#: a number, in whatever signs
 _DIGITS = re.compile(r"[-+\u2212]?[\d.,\s'’]+([eE][-+]?\d+)?")
 
 

@@ -108,6 +108,9 @@ def _opened(topographies: Any, where: str) -> Any:
         separator = next((each for each in (b";", b",") if each in data[:_HEAD]), None)
         if separator is None or not all(map(_OF_MATRIX.fullmatch, data.splitlines())):
             raise
+        if separator == b"," and not any(b"." in line for line in data.splitlines() if not line.startswith(b"#")):
+            allowed = "decimal points, or blanks, tabs or semicolons between numbers: these commas may be decimal signs"
+            raise InputError(where, "whole numbers parted by commas", allowed) from None
         data = re.sub(rb"(?m)%b[ \t]*\r?$" % separator, b"", data)
         data = re.sub(rb"(?m)(?:^|(?<=%b))[ \t]*(?=%b)" % (separator, separator), b"nan", data)
         return topographies.open_topography(io.BytesIO(data.replace(separator, b"\t")))
