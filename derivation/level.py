@@ -240,3 +240,24 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
         zero("and their exact friction is the sum of both tau_sat: what Eq. 12 to 14 give", sp.simplify(averaged - levels)),
     ]
     return derived(levels_together, stated, checks, "levels in complete contact together", emitted=("level_saturation_friction",))
+
+
+def crests_at_rest() -> Derived:
+    r"""Without adhesion and at rest contact begins with the crests, which are paraboloids there: the nominal pressure at a small
+    penetration.
+
+    .. math:: \frac{K D^2}{2\pi h}
+    """
+    crest = sum(sp.diff(HEIGHT, *pair).subs({x: 0, y: 0}) * sp.Mul(*pair) / 2 for pair in ((x, x), (x, y), (y, x), (y, y)))
+    flat, r = [HEIGHT, sp.diff(HEIGHT, x), sp.diff(HEIGHT, y)], sp.Symbol("r", positive=True)
+    sunk = D_level - (crest.subs(y, 0)).subs(x, r)
+    edge = sp.sqrt(4 * D_level / (h * k**2))
+    load = sp.integrate(sp.expand(K * sunk * 2 * sp.pi * r), (r, 0, edge)) / l**2
+    value = K * D_level**2 / (2 * sp.pi * h)
+    claims = [
+        zero("at the crest neither height nor slope", [part.subs({x: 0, y: 0}) for part in flat]),
+        zero("next to it the height is that of a paraboloid", crest - h * k**2 / 4 * (x**2 + y**2)),
+        zero("contact ends at this distance from it", sunk.subs(r, edge)),
+        zero("K times the penetration there, over the cell", load.subs(WAVE) - value),
+    ]
+    return derived(crests_at_rest, value, claims)

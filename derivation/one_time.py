@@ -3,6 +3,7 @@
 import sympy as sp
 
 from .averages import constant_means, strip_means
+from .balance import always_engaged, before_contact, before_onset, pull_and_pressure, standing_still
 from .conditions import strip_problem, zone_conditions
 from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
@@ -12,11 +13,12 @@ from .functions import Formula
 from .half_space import half_space
 from .jumps import closures, internal_state, jump_law
 from .kernel import Kernel, Kernels, as_derived
-from .level import least_pressure, level, levels_together, printed_equation_16
+from .level import crests_at_rest, least_pressure, level, levels_together, printed_equation_16
 from .membership import require_constructor
 from .model import Model, foundation, inadmissible, refuse
 from .modes.flows import mode_flows
 from .multilevel import multilevel, passed_once
+from .onset_map import growth_of_the_slope, slope_of_the_onset_map
 from .outcome import Derivation, records
 from .paper.compare import comparisons
 from .paper.record import require_all, require_status, require_tags
@@ -60,9 +62,11 @@ def derive(model: Model) -> Derivation:
         (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table),
         (sample_roots("one_time", table, mode_flows()), systems, means, still),
         (power_balance(flow), *(friction_balance(regime) for regime in partial)),
-        (shift_of_an_event(), onsets, slopes),
+        (shift_of_an_event(), onsets, slopes, slope_of_the_onset_map(partial), growth_of_the_slope(partial[0])),
+        (always_engaged(flow), pull_and_pressure(partial, flow)),
+        (before_contact(flow), before_onset(flow), standing_still(flow)),
         multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event")),
-        (least_pressure(threshold, whole[1].exact), levels_together(one_strip, whole[2].exact), half_space()),
+        (least_pressure(threshold, whole[1].exact), levels_together(one_strip, whole[2].exact), crests_at_rest(), half_space()),
     )
     sections = (
         ("Rigid profile, load, zones", zone),

@@ -59,7 +59,7 @@ def onset_slope(regime: Row) -> Kernel:
     if width != 0:
         left_over, lost = left_over * decay(width, alpha), lost * decay(width, alpha) + decay_loss(width, alpha)
     loads = [stable.FORCING(zone.first, D, beta) + offsets(zone)[0] for zone in regime.zones]
-    before = [stable.FORCING(_same_phase(zone.last), D, beta) + offsets(zone)[1] for zone in regime.zones]
+    before = [stable.FORCING(same_phase(zone.last), D, beta) + offsets(zone)[1] for zone in regime.zones]
     product = sp.Mul(left_over, *(first / last for first, last in zip(loads, before, strict=True)))
     # A zone begins with the load that the one before is left with, but where p steps: at both ends of the free zone.
     onset, release = (step_of_load(sp.expand(loads[n] - before[n - 1])) for n in (0, -1))
@@ -88,7 +88,7 @@ def onset_slope(regime: Row) -> Kernel:
 
 def _grown(free: Zone, onset: sp.Expr, release: sp.Expr) -> sp.Expr:
     """What the steps of the load at both ends of the free zone make of its loads, common terms taken out."""
-    first, last = free.first, _same_phase(free.last)
+    first, last = free.first, same_phase(free.last)
     spare = sp.cancel(sp.expand(onset * offsets(free)[0] + release * offsets(free)[1]) / onset)
     if sp.expand(onset + release) != 0:
         return onset * (spare + stable.FORCING(first, D, beta)) + release * stable.FORCING(last, D, beta)
@@ -108,7 +108,7 @@ def step_of_load(change: sp.Expr) -> sp.Expr:
     return sp.factor(change).subs({J * chi - 1: -(L * chi + 1 - chi), J - 1: -L})
 
 
-def _same_phase(edge: sp.Expr) -> sp.Expr:
+def same_phase(edge: sp.Expr) -> sp.Expr:
     """The edge itself instead of one period later: the load has the period 2 pi."""
     return edge.subs(sp.pi, 0)
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import sympy as sp
 
-from . import half_space, symbols
+from . import balance, half_space, onset_map, symbols
 from .displays import Binding, Names
 from .flows import Flows
 from .latex import Of, Prefix
@@ -180,6 +180,11 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "Eq. 16 as printed": lambda values, words: {r"\mu": values[0], r"\textderived": values[0], r"\textprinted": values[1]},
     "friction balance": _energies,
     "onset_slope": lambda values, words: {"T'": values[0] / values[1]},
+    "slope of the onset map": lambda values, words: onset_map.NAMES | {"T'": values[0]},
+    "growth of the slope": lambda values, words: onset_map.NAMES,
+    "pull and pressure": lambda values, words: {"q": Of(s, words["q"].expression.subs(q_0, 0))},
+    "before": lambda values, words: balance.NAMES,
+    "standing still": lambda values, words: balance.NAMES,
     "adhesive_onset": named("g_d", "[F]"),
     "snap_onset": named("q_d", "[F]"),
     "least pressure": _least,

@@ -127,6 +127,14 @@ MUTANTS: tuple[Mutant, ...] = (
     m("stability", "stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay", "shift of an event"),
     m("stability", "stability.py", "(release / (1 + beta) - released)", "(release / (1 + beta) + released)", "onset_slope_acaf"),
     m("stability", "stability.py", "spare - 2 * sp.sin(half)", "spare + 2 * sp.sin(half)", "onset_slope_acaf"),
+    m("stability", "onset_map.py", "(1 + M_step / M)\n", "(1 - M_step / M)\n", "slope of the onset map"),
+    m("stability", "onset_map.py", "before[-1] - loads[-1] * decay", "before[-1] + loads[-1] * decay", "slope of the onset map"),
+    m("stability", "onset_map.py", "ended = -M / at_a", "ended = M / at_a", "growth of the slope"),
+    m("stability", "balance.py", "(D + p_0 - 2 + delta_0) * beta", "(D + p_0 - 1 + delta_0) * beta", "always engaged"),
+    m("stability", "balance.py", "- alpha * begun.subs(s, s_1)", "+ alpha * begun.subs(s, s_1)", "pull and pressure"),
+    m("stability", "balance.py", "(sp.exp(-(s_1 - s_0) / beta) - 1)", "(sp.exp(-(s_1 - s_0) / beta) + 1)", "before contact"),
+    m("stability", "balance.py", "cosine = sp.cos(d) - jump", "cosine = sp.cos(d) + jump", "before onset"),
+    m("stability", "balance.py", "(p_0 - jump) * c - (1 - J)", "(p_0 - jump) * c + (1 - J)", "standing still"),
     # complete contact, levels
     m("complete contact", "saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q", "complex modulus"),
     m("complete contact", "saturated.py", "least = D - 1 - R", "least = D - 1 + R", "saturation threshold", "displays"),
@@ -138,6 +146,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "corrected = sp.Rational(3, 16) * sp.pi**2 * K * h",
         "stack friction",
     ),
+    m("level", "level.py", "value = K * D_level**2 / (2 * sp.pi * h)", "value = K * D_level**2 / (sp.pi * h)", "crests at rest"),
     m("level", "level.py", "3 * sp.pi / 32 * K * h**2", "sp.pi / 2 * K * h**2", "level_saturation_friction"),
     m(
         "level",

@@ -80,8 +80,8 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Penetrations:
 
 def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
     """``invert`` at p > 0 without adhesion. Orbits are in the order of w, which rises with D, no faster: there is one root, and
-    no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these. Next to the plane crests
-    are paraboloids, at rest they carry ``K D^2/(2 pi h)``: pressures are nearly powers."""
+    no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these. At rest crests carry
+    ``K D^2/(2 pi h)`` (derivation: ``level.crests_at_rest``): pressures are nearly powers."""
     K, h = columns.material.K, columns.level.h
     low, high = p / K, np.minimum(p / K + 0.75 * h, full)
     D, power, slope = np.sqrt(2 * np.pi * h * low), np.full(p.size, 2.0), np.full((p.size, len(QUANTITIES)), np.nan)

@@ -1,15 +1,13 @@
 """Proofs by the balance of a period that a strip has no orbit of some kind.
 
-None that is always engaged but saturated contact. Let ``y = w + p_0`` and ``q = p + p_0``, both never negative then, and
-``z = y - J q``, so that ``beta z' + z = L q >= 0``: z falls no faster than it fades. In the valley ``z <= y <= S - 2 + delta_0``,
-``S = D + p_0``, if the gap is to stay within reach, which bounds z all along the period before and the mean of it. That mean is
-``L`` times the mean of y, which is at least that of the profile, ``S - 1``. So
+The formulas and what proves them: ``balance`` of the derivation.
+
+None that is always engaged but saturated contact, unless with ``S = D + p_0``
 
     L (S - 1) <= (S - 2 + delta_0) beta (exp(2 pi/beta) - 1)/(2 pi)   and   S - 2 + delta_0 >= 0.
 
-None with an onset, of a strip out of reach of the undeformed foundation, ``D <= -delta_0``. Every orbit obeys
-``beta z' = p - w``, so that p and w have the same mean. With Q the sum of the pressure over -p_0 in contact and E the length of
-engagement
+None with an onset, of a strip out of reach of the undeformed foundation, ``D <= -delta_0``. In every orbit p and w have the same
+mean. With Q the sum of the pressure over -p_0 in contact and E the length of engagement
 
     0 = Q - p_0 E - sum of w,
 

@@ -4,10 +4,8 @@ Rough edges are those of a foundation that stands still while it is out of conta
 are near to at any speed. A start that leads astray costs a search, never a wrong orbit.
 
 Then w is the same at the end of contact as at the next onset; from one of a period's edges follow all, and that one from the
-balance ``mean(w) = mean(p)``, which holds at any speed (the equation of the foundation, integrated over a period). In
-contact, which is short then, p follows w with the glassy modulus: ``p = -p_0 + (u - u(a))/J``. With ``U = u(a)``, or the height
-at which w stands where there is no contact, and contact and adhesion as long before the crest as after it (b = -a, x = -c; it is
-so but for the step of w):
+balance ``mean(w) = mean(p)`` (derivation: ``balance.standing_still``). With ``U = u(a)``, or the height at which w stands where
+there is no contact, and contact and adhesion as long before the crest as after it (b = -a, x = -c, but for the step of w):
 
     cos a = 1 - D + U,  cos c = cos a - delta_0,
     pi (U + chi J p_0) + (1 - chi J) p_0 c = (L/J) (sin a - a cos a).

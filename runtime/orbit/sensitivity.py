@@ -1,13 +1,12 @@
 """Rigorous bounds on the slope of the onset-to-onset map over an interval of onset phases.
 
-With R(x) = r(x) exp(x/beta), r from ``march``, the chain rule through the edges gives
-``beta R' = exp(x/beta) (N - F)``, where ``F = H(x) + delta_0`` and ``N = F T'`` with
+With R(x) = r(x) exp(x/beta), r from ``march``, ``beta R' = exp(x/beta) (N - F)``, where ``F = H(x) + delta_0`` and ``N = F T'``,
 
 ``T' = exp(-2 pi/beta - (a - b) L/alpha) (1 + s_x/F) (1 + s_c/M)``, ``M = -(H_c + delta_0 + p_0)``,
 
-``s_x`` and ``s_c`` the steps of the load at onset and release; at a periodic orbit T' is the slope of the map, which the
-derivation proves (``onset_slope_*``). Along the onset arc b grows, a and c fall with x (a later onset is a less engaged
-orbit), so every factor is bounded by its values at the ends of an interval and at the extremum of the one harmonic H. With g the
+``s_x`` and ``s_c`` the steps of the load at onset and release (derivation: ``onset_map.slope_of_the_onset_map``). Along the
+onset arc b grows, a and c fall with x (a later onset is a less engaged orbit), so every factor is bounded by its values at the
+ends of an interval and at the extremum of the one harmonic H. With g the
 logarithm of T' without its factor of the onset, ``N - F = F (exp(g) - 1) + s_x exp(g)``: that stays finite where the onset
 grazes, grows with g, is linear in F, and keeps its digits at large beta, where T' is one but for terms of order 1/beta.
 """
@@ -71,9 +70,8 @@ def slope_grows(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     """Where T' grows with the onset, from that of ``orbit`` (not engaged) on until contact, if it is certain, is met no more.
 
     Contact gets shorter. Of the two factors, that of the onset grows where F falls, behind the centre of its arc, and that of the
-    end of adhesion where M falls as c gets smaller, before the middle of its arc. Elsewhere contact may get shorter fast enough:
-    along adhesion ``db/dx = exp(-(b - x)/beta) (F + s_x)/(H_b + p_0)`` (1 where it begins at once) and
-    ``da/dc = -exp((c - a)/beta) M/(H_a + p_0)``, so that it is enough that
+    end of adhesion where M falls as c gets smaller, before the middle of its arc. Elsewhere contact may get shorter fast enough
+    (derivation: ``onset_map.growth_of_the_slope``, with db/dx = 1 where contact begins at once). It is enough that
 
     ``s_x F' <= (L/alpha) F (F + s_x) db/dx``,  ``-s_c M' <= (L/alpha) M (M + s_c) da/dc``
 
