@@ -1,5 +1,7 @@
 """Tables of moduli as instruments export them: each is read as the same four numbers, or refused by name."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -69,6 +71,14 @@ EXPORTS = {
     "quotation mark in a remark": '"Sample: foo\nx\n' + table("f [Hz];E' [MPa];E'' [MPa]"),
     "quotation mark below": table("f [Hz];E' [MPa];E'' [MPa];note").replace("0.25\n", '0.25;"3 inch\n'),
     "name of two lines": table('f [Hz];"E\'\n[MPa]";"E\'\'\n[MPa]"'),
+    "blanks, as many as align": "Frequency [Hz]   E' [MPa]  tan delta\n 0.5       1.5      0.16666666666666666\n 5  3  0.25\n",
+    "a blank each": "Remark: frequency, storage\nf [Hz] storage modulus (MPa) loss modulus (MPa)\n0,5 1,5 0,25\n5 3 0,75\n",
+    "blanks, units below": "angular frequency  E_stor  E''   note\nrad/s  MPa  N/mm^2  -\n"
+    + "".join(f"{w!r} {E[0]} {E[1]} ok\n" for w, E in zip(RAD, MPA, strict=True)),
+    "blanks beside a slash": "f / Hz E' / MPa E'' in MPa\n0.5\t1.5 0.25\n5 3 0.75\n",
+    "blanks behind the sign of a remark": "# f [Hz] E' [MPa] E'' [MPa]\n5.0e-01 1.5e+00 2.5e-01\n5.0e+00 3.0e+00 7.5e-01\n",
+    "blanks, names again above each": "step 1\nf E' E''\nHz MPa MPa\n0.5 1.5 .25\nstep 2 of 2\nf E' E''\nHz MPa MPa\n5 3 .75\n",
+    "blanks and blanks in thousands": "f [Hz]   E' [Pa]   E'' [Pa]\n0.5   1 500 000   250 000\n5     3 000 000   750000\n",
     "blank cells to the right": table("f [Hz];E' [MPa];E'' [MPa];;").replace("0.25\n", "0.25;;;;\n"),
 }
 
@@ -119,6 +129,21 @@ REFUSED = {
     "one frequency": (HEAD + "5;2;0.3\n5;2.1;0.31\n", "frequency: got '2 rows of numbers, at 5 Hz alone'; .*two different"),
     "points or thousands": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n", "got '2.100'; .*read in one way"),
     "both in threes": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;1,210\n2;2.200;220\n", "read in one way"),
+    "a cell missing between blanks": (
+        "f [Hz]  E' [MPa]  E'' [MPa]  T [K]\n1  2  1  300\n2  3  300\n",
+        "line 3: .*allowed: 4 cells, as many as there are names; parted by semicolon or tab where some are empty or hold blanks",
+    ),
+    "thousands parted like the cells": ("f [Hz] E' [Pa] E'' [Pa]\n1 2000 100\n2 3 000 200\n", "line 3: .*allowed: 3 cells"),
+    "a number more than names": (
+        "f [Hz] E' [Pa] tan delta\n1 2 000 0.1\n2 3 000 0.2\n",
+        r"line 1: got .*'tan delta'\]; allowed: as many names as numbers below, two blanks or more between",
+    ),
+    "names that blanks part in several ways": (
+        "f storage modulus loss modulus\nHz MPa MPa\n1 2 1\n2 3 2\n",
+        "line 1: .*as many names",
+    ),
+    "blanks and commas": ("f E' E''\nHz Pa Pa\n1.500, 2.500, 3.500\n2.500, 3.500, 4.500\n", "line 3: .*parted by blanks alone"),
+    "one column short, between blanks": ("f [Hz]  E' [MPa]  Elost [MPa]\n1  2  1\n2  3  2\n", "line 1: got .*also one more of"),
     "no frequency": ("remark\nTime;G' [MPa];G'' [MPa]\n1;2;1\n", "line 2: got .*in this row of names also frequency or omega$"),
     "logarithms": ("log f [Hz];log E' [Pa];log E''\n1;6;5\n", "line 1: .*also frequency .*themselves where 'log f .Hz.' has log"),
     "a logarithm": (
@@ -142,6 +167,19 @@ def test_what_can_be_read_wrongly_is_refused(tmp_path, name):
 def test_blanks_in_a_name_take_no_time(tmp_path):
     (tmp_path / "wide.csv").write_text(f"f [Hz],G' [Pa],G'' [Pa],a{' ' * 5000}x\n1,1e6,1e5,1\n10,2e6,2e5,1\n100,3e6,2e5,1\n")
     assert read_dma(tmp_path / "wide.csv").storage.tolist() == [1e6, 2e6, 3e6]
+
+
+def test_what_parts_the_cells_is_said(tmp_path):
+    said = read_dma(written(tmp_path, EXPORTS["a blank each"])).columns
+    assert "'f [Hz]': frequency, in Hz" in said and "cells parted by blanks, decimal comma" in said
+
+
+def test_lines_of_many_words_take_no_time(tmp_path):
+    path = written(tmp_path, ("( " * 60_000 + "\n") * 20)
+    start = time.process_time()
+    with pytest.raises(hystrip.InputError, match="a row of names"):
+        read_dma(path)
+    assert time.process_time() - start < 3
 
 
 def test_one_frequency_in_python_is_refused():

@@ -29,6 +29,8 @@ _NAMES = {
 _NAMES = {role: tuple(names.split()) for role, names in _NAMES.items()}
 #: roles that may have the letter of the modulus before or after them: E', G'', E_stor, storage modulus E'
 _MODULI = ("storage", "loss", "absolute")
+#: characters of a name at most: looking into a longer text takes the square of its length
+_LONGEST = 200
 #: single letters that mean something else in the other case: force, time, difference
 _OTHER_CASE = ("F", "t", "W", "Δ")
 _KINDS = {"tensile": "E", "tension": "E", "young's": "E", "youngs": "E", "compression": "E", "elongational": "E", "shear": "G"}
@@ -62,6 +64,8 @@ def columns_of(names: list[str]) -> list[Column]:
     """The columns that are understood, in the order of the file."""
     found = []
     for index, written in enumerate(names):
+        if len(_single_spaced(written)) > _LONGEST:
+            continue
         role, kind = _role(written)
         if role:
             found.append(Column(index, written, role, kind, ""))

@@ -25,7 +25,7 @@ def read_dma(
 ) -> DynamicModulus:
     """Read frequency, storage and loss modulus from what an instrument exports as text.
 
-    Columns are parted by comma, semicolon or tab; numbers have a decimal point or comma. A row of names, in any order and
+    Columns are parted by comma, semicolon, tab or blanks; numbers have a decimal point or comma. A row of names, in any order and
     below any remarks, with the unit in the name or in a row of its own; the same names again may stand above each step::
 
         f, E_stor, E_loss            Frequency [Hz];E' [MPa];tan delta

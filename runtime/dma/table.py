@@ -1,4 +1,4 @@
-"""Reading a table of numbers as instruments export it: any of three separators, decimal point or comma, one row of names."""
+"""Reading a table of numbers as instruments export it: any of four separators, decimal point or comma, one row of names."""
 
 import csv
 import itertools
@@ -12,14 +12,22 @@ from ..files import path_of, read_at_most
 
 _LARGEST = 1 << 24  # bytes; a master curve has a few thousand
 _SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma"}
+_BLANKS = "blanks"
 #: rows of remarks that an instrument may write above the names
 _PREAMBLE = 200
 #: of so many cells a row is no table
 _WIDEST = 10_000
+#: of more words a line is no row of names that blanks part
+_MOST_WORDS = 300
+_HINTS = {
+    "comma": "; with a decimal comma, parted by semicolon or tab",
+    _BLANKS: "; parted by semicolon or tab where some are empty or hold blanks",
+}
 _SWAPPED = str.maketrans(".,", ",.")
 _THOUSANDS = {sign: re.compile(rf"[-+]?[1-9]\d{{0,2}}(\{sign}\d{{3}})+") for sign in ",."}
 #: thousands parted by blanks or apostrophes, which no decimal sign looks like
 _PARTED = re.compile(r"[-+\u2212]?\d{1,3}([\s'’])\d{3}(\1\d{3})*([.,]\d*)?([eE][-+]?\d+)?")
+_IN_BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[\])}>]")
 #: a number, in whatever signs
 _DIGITS = re.compile(r"[-+\u2212]?[\d.,\s'’]+([eE][-+]?\d+)?")
 
@@ -68,15 +76,33 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
                 below, times = _joined(cells, rows[at + 1 :])
                 return _checked(Table(where, names, below, _SEPARATORS[separator], line, tuple(lines[: line - 1]), times))
             if count < nearest[0]:
-                nearest = (count, words, line, cells)
-    _, words, line, cells = nearest
+                nearest = (count, f"in this row of names also {words}", line, cells)
+    # blanks stand in names and remarks too: only where nothing else parts the cells
+    texts = [(line, text.strip(" \t")) for line, text in enumerate(lines, 1) if text.strip()]
+    for marked, (at, (line, text)) in itertools.product((False, True), enumerate(texts[:_PREAMBLE])):
+        for names in _parted_by_blanks(text.lstrip("#% ") if marked else text):
+            count, words = lacking(names)
+            first = [_cells(below, len(names)) for _, below in texts[at + 1 : at + 3]]
+            fits = any(len(cells) == len(names) and _numeric(cells, 3) for cells in first)
+            if fits and not count:
+                below, times = _joined(names, [(line, _cells(below, len(names))) for line, below in texts[at + 1 :]])
+                return _checked(Table(where, names, below, _BLANKS, line, tuple(lines[: line - 1]), times))
+            if fits and count < nearest[0]:
+                nearest = (count, f"in this row of names also {words}", line, names)
+            if not count:  # but no such rows below; names that are parted finer would be others
+                unfit = "as many names as numbers below, two blanks or more between them or each with its unit in brackets"
+                nearest = min(nearest, (2, unfit, line, names), key=lambda each: each[0])
+                break
+    _, allowed, line, cells = nearest
     if cells:
-        raise InputError(f"{where}, line {line}", cells, f"in this row of names also {words}")
+        raise InputError(f"{where}, line {line}", cells, allowed)
     first = next((line for line in lines if line.strip()), "")
     if not first:
         raise InputError(where, "no text", "a row of names (frequency, storage and loss modulus, with units), then numbers")
     allowed = "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta"
-    raise InputError(where, first, f"{allowed}; separated by comma, semicolon or tab; among the first {_PREAMBLE} rows")
+    raise InputError(
+        where, first, f"{allowed}; separated by comma, semicolon or tab, or by blanks; among the first {_PREAMBLE} rows"
+    )
 
 
 def _joined(names: list[str], rows: list[tuple[int, list[str]]]) -> tuple[list[tuple[int, list[str]]], int]:
@@ -95,18 +121,37 @@ def _joined(names: list[str], rows: list[tuple[int, list[str]]]) -> tuple[list[t
     return joined, times
 
 
-def _numeric(cells: Sequence[str]) -> bool:
-    """Whether one of the cells is a number."""
-    return any(_DIGITS.fullmatch(cell) for cell in cells)
+def _numeric(cells: Sequence[str], least: int = 1) -> bool:
+    """Whether so many of the cells are numbers."""
+    return sum(_DIGITS.fullmatch(cell) is not None for cell in cells) >= least
+
+
+def _parted_by_blanks(text: str) -> list[list[str]]:
+    """The cells of a row of names, in each way that blanks may part them, fewest first: by two or more, or all behind brackets,
+    or wherever they stand. Blanks within brackets, before them and beside a slash part none."""
+    if len(text.split()) > _MOST_WORDS:
+        return []
+    held = _IN_BRACKETS.sub(lambda found: re.sub(r"[ \t]", "\0", found[0]), text)
+    held = re.sub(r"(?<![ \t])[ \t]+(?:(?=[\[({<])|(/|in)[ \t]+)", lambda found: f"\0{found[1]}\0" if found[1] else "\0", held)
+    ways = [re.split(blanks, held) for blanks in (r"[ \t]{2,}|\t", r"(?<=[\])}>])[ \t]+", r"[ \t]+")]
+    return sorted(([name.replace("\0", " ") for name in way] for way in ways), key=len)
+
+
+def _cells(text: str, count: int) -> list[str]:
+    """The cells of a row that blanks part, as many as there are names; all of it in one if it has not so many."""
+    cells = re.split(r"[ \t]+", text)
+    return cells if len(cells) == count else next((way for way in _parted_by_blanks(text) if len(way) == count), [text])
 
 
 def _checked(table: Table) -> Table:
-    """Refuse rows of more cells than names: it is not known which of them stands below which name."""
+    """Refuse rows of more cells than names, or of fewer where blanks part them: it is not known which stands below which name."""
     width = max(i for i, name in enumerate(table.names, 1) if name)
     for line, row in table.rows:
-        if any(row[width:]):
-            hint = "; with a decimal comma, parted by semicolon or tab" if table.separator == "comma" else ""
+        if any(row[width:]) or (table.separator == _BLANKS and len(row) < width):
+            hint = _HINTS.get(table.separator, "")
             raise InputError(f"{table.where}, line {line}", row, f"{width} cells, as many as there are names{hint}")
+        if table.separator == _BLANKS and any(cell.endswith((",", ";")) for cell in row):
+            raise InputError(f"{table.where}, line {line}", row, "cells that are parted by blanks alone, as the names are")
     return table
 
 
