@@ -159,6 +159,18 @@ def test_a_matrix_may_have_commas_or_semicolons(files, tmp_path, sign, end):
     assert found.shape == (9, 12) and np.allclose(found[there], 1e-6 * heights.T[there], rtol=1e-8)
 
 
+@pytest.mark.parametrize("sign", [",", ";"])
+def test_signs_in_remarks_part_no_numbers(files, tmp_path, sign):
+    path = text_scan(tmp_path / "scan.txt", "lengths")
+    plain = read_surface(path, unit="um")
+    rows = [row.replace(" ", sign) for row in path.read_text(encoding="utf-8").splitlines()[2:]]
+    path.write_text(
+        "\n".join(["# Made: today; by nobody, 1.5 h", *HEADS["lengths"].splitlines(), *rows]) + "\n", encoding="utf-8"
+    )
+    scan = read_surface(path, unit="um")
+    assert scan.sizes == plain.sizes and np.array_equal(scan.heights, plain.heights)
+
+
 def test_commas_that_may_be_decimal_signs_part_no_numbers(tmp_path):
     """``12,5,13,2`` is two heights or four."""
     rows = [

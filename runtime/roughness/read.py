@@ -22,9 +22,9 @@ from .units import Units, lacks_lengths, units_of
 _FEW = 0.02
 #: a number with a decimal comma or without decimals, or an undefined one
 _NUMBER = re.compile(rb"[-+]?\d+(,\d+)?(e[-+]?\d+)?|nan|bad", re.IGNORECASE)
-#: a line of a matrix, or a remark
-_OF_MATRIX = re.compile(rb"[-+\d.eE\s,;]*(?:nan[-+\d.eE\s,;]*)*|#.*", re.IGNORECASE)
-#: bytes of a file in which they are looked for
+#: a line of a matrix
+_OF_MATRIX = re.compile(rb"[-+\d.eE\s,;]*(?:nan[-+\d.eE\s,;]*)*", re.IGNORECASE)
+#: bytes of a file in which decimal commas are looked for
 _HEAD = 100_000
 
 
@@ -104,16 +104,22 @@ def _opened(topographies: Any, where: str) -> Any:
         return topographies.open_topography(_with_points(where))
     except topographies.Exceptions.CannotDetectFileFormat:
         with open(where, "rb") as file:
-            data = file.read().removeprefix(codecs.BOM_UTF8)
-        separator = next((each for each in (b";", b",") if each in data[:_HEAD]), None)
-        if separator is None or not all(map(_OF_MATRIX.fullmatch, data.splitlines())):
+            lines = file.read().removeprefix(codecs.BOM_UTF8).splitlines()
+        rows = [line for line in lines if not line.startswith(b"#")]
+        separator = next((each for each in (b";", b",") if any(each in line for line in rows)), None)
+        if separator is None or not all(map(_OF_MATRIX.fullmatch, rows)):
             raise
-        if separator == b"," and not any(b"." in line for line in data.splitlines() if not line.startswith(b"#")):
+        if separator == b"," and not any(b"." in line for line in rows):
             allowed = "decimal points, or blanks, tabs or semicolons between numbers: these commas may be decimal signs"
             raise InputError(where, "whole numbers parted by commas", allowed) from None
-        data = re.sub(rb"(?m)%b[ \t]*\r?$" % separator, b"", data)
-        data = re.sub(rb"(?m)(?:^|(?<=%b))[ \t]*(?=%b)" % (separator, separator), b"nan", data)
-        return topographies.open_topography(io.BytesIO(data.replace(separator, b"\t")))
+        tabbed = (line if line.startswith(b"#") else _with_tabs(line, separator) for line in lines)
+        return topographies.open_topography(io.BytesIO(b"\n".join(tabbed) + b"\n"))
+
+
+def _with_tabs(line: bytes, separator: bytes) -> bytes:
+    """A line of a matrix with tabs between its numbers, and nan where there is none but at the end."""
+    cells = [cell.strip() for cell in line.split(separator)]
+    return b"\t".join(cell or b"nan" for cell in (cells if cells[-1] else cells[:-1]))
 
 
 def _with_points(where: str) -> Any:
