@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: seconds after which a file that a run left half-written is nobody's, whatever its name says; no picture takes a day
 _FORGOTTEN = 86_400.0
+#: seconds after which that holds for a folder of generated files: written and renamed in one
+_FORGOTTEN_FOLDER = 3_600.0
 _HOST = re.sub(r"\W", "", platform.node()) or "here"
 
 
@@ -119,6 +121,19 @@ def _remove_left(folder: Path, name: str) -> None:
             forgotten = time.time() - left.stat().st_mtime > _FORGOTTEN
             if forgotten or (run and run["host"] == _HOST and not _alive(int(run["pid"]))):
                 left.unlink()
+
+
+def remove_left_folders(folder: Path) -> None:
+    """Remove what killed runs, an hour ago or more, left of generated files that were to go into `folder`: folders
+    ``.NAME.xxxxxxxx`` in it or beside it, with a folder NAME and nothing else in them."""
+    import shutil
+
+    name = folder.absolute().name
+    for left in (each for place in (folder, folder.parent) for each in place.glob(f".{glob_escaped(name)}.????????")):
+        with contextlib.suppress(OSError):
+            forgotten = time.time() - left.lstat().st_mtime > _FORGOTTEN_FOLDER
+            if forgotten and not left.is_symlink() and {each.name for each in left.iterdir()} <= {name}:
+                shutil.rmtree(left)
 
 
 def glob_escaped(name: str) -> str:

@@ -1,7 +1,10 @@
 """Solvers outside the package: loading, versions, permission, scenes and the command line."""
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -181,6 +184,26 @@ def test_certificates_of_no_solver_are_refused_before_the_work(tmp_path, run, mo
     (tmp_path / "out/certificates.json").write_text(text)
     status, _, err = run("regenerate", "--out", "out")
     assert status == 2 and err.startswith("hystrip: --out: got 'out'; allowed: a new folder, or one whose certificates.json")
+
+
+def test_what_a_killed_run_left_of_generated_files_is_removed(tmp_path, run, monkeypatch):
+    """In the folder and beside it; not what may be still at work, what is not like it, or what a link leads to."""
+    killed = "import os; from pathlib import Path; from hystrip.derivation.folder import write_files; "
+    killed += "os.replace = lambda *_: os._exit(9); write_files(Path('out'), {'deep/a.py': 'x'})"
+    assert subprocess.run([sys.executable, "-c", killed], cwd=tmp_path, check=False).returncode == 9
+    (beside,) = tmp_path.glob(".*")
+    within = tmp_path / "out" / beside.name
+    shutil.copytree(beside, within)
+    others = [tmp_path / name for name in (".out.abcdefgh", ".out.settings", ".other.abcdefgh", ".out.a_linked")]
+    for other, inside in zip(others, ("out", "mine", "other"), strict=False):
+        (other / inside).mkdir(parents=True)
+    others[-1].symlink_to(others[1], target_is_directory=True)
+    for each in (beside, within, *others[1:3]):
+        os.utime(each, (0, 0))
+    monkeypatch.setattr("hystrip.derivation.regenerate", lambda *_, **__: None)
+    status, _, _ = run("regenerate", "--out", "out")
+    assert status == 0 and not beside.exists() and not within.exists()
+    assert all(each.exists() for each in others)
 
 
 def test_moduli_and_times_are_swept(folder):

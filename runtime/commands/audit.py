@@ -18,7 +18,7 @@ def command(
     """
     from ..errors import InputError
     from ..extras import require
-    from ..files import refuse_unwritable
+    from ..files import refuse_unwritable, remove_left_folders
     from .progress import progress
 
     require("matplotlib", "plot", "drawing the audit's examples")
@@ -29,6 +29,7 @@ def command(
 
     folder = out if out is not None else Path(hystrip.generated.__file__).parent / "audit"
     refuse_unwritable(folder, "--out")
+    remove_left_folders(folder)
     if (folder / "index.html").exists() and not (folder / "measured.json").exists():
         raise InputError("--out", str(folder), "another folder: index.html in it was not written by `hystrip audit`")
     try:

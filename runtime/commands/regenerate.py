@@ -18,7 +18,7 @@ def command(
     The folder is used with hystrip.load_solver(...), or in a scene as [material] solver. Needs the extra `regenerate`.
     """
     from ..errors import HystripError, InputError
-    from ..files import refuse_unwritable
+    from ..files import refuse_unwritable, remove_left_folders
     from .progress import progress
     from .signals import Terminated
 
@@ -29,6 +29,7 @@ def command(
 
     folder = out if out is not None else Path(hystrip.generated.__file__).parent
     refuse_unwritable(folder, "--out")
+    remove_left_folders(folder)
     try:
         models = None if model is None else hystrip.derivation.load_model(model)
     except FileNotFoundError:
