@@ -8,9 +8,7 @@ from .options import out_option
 from .output import say
 
 
-def command(
-    out: Path = out_option("Folder to write into; without it, the installed package's own.", default=None),
-) -> None:
+def command(out: Path = out_option("Folder to write into; without it, the installed package's own.", default=None)) -> None:
     """Derive, verify, and write the audit pages.
 
     Pages for a browser, and JSON. Exits with 1, and names the step, if one does not verify. Needs the

@@ -45,12 +45,9 @@ def _status() -> int:
     except BrokenPipeError:  # the reader of our output, such as `head`, has had enough
         _discard_closed_output()
         return FAILED
-    except (InputError, MissingExtra) as error:
-        _say(str(error))
-        return USAGE
     except HystripError as error:
         _say(str(error))
-        return FAILED
+        return USAGE if isinstance(error, (InputError, MissingExtra)) else FAILED
     except OSError as error:
         place = f"{error.filename}: " if error.filename else ""
         _say(f"{place}{error.strerror or error}")

@@ -62,19 +62,19 @@ def command(
     from ..scene.errors import located
     from ..scene.load import parse_toml, scene_text
     from ..tables import about_version, write_csv
-    from .quantities import metres, pascals
+    from .quantities import quantity
     from .scene_options import left_to_the_user, settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
     if nu is not None and length is not None:
         raise InputError("--nu, --length", (nu, length), "one of the two: a half-space, or one stiffness for all levels")
-    over = metres(length, "--length")
+    over = quantity(length, "m", "--length")
     writes_scene = nu is not None or over is not None
     source, stem = data.name, data.stem
     if temperature_set is not None:  # the results of one set do not take the place of another's
         source, stem = f"{source}, set {printable(temperature_set)}", f"{stem}.{quote(temperature_set, safe=' ')}"
-    given = settings(scene if writes_scene else "", pascals(pressure, "--pressure"), title, f"Rubber of {source}")
+    given = settings(scene if writes_scene else "", quantity(pressure, "Pa", "--pressure"), title, f"Rubber of {source}")
     with as_options(_OPTIONS):
         if nu is not None:
             HalfSpace(E=1.0, nu=nu, moduli=[1.0], times=[1.0])  # what is wrong with nu is said before the work
@@ -101,7 +101,6 @@ def command(
         warnings.simplefilter("ignore", FitWarning)  # said below, with everything else about the fit
         measured = measured.between(low, high)
         series = fit_prony(measured, accuracy=accuracy, per_decade=per_decade, terms=terms)
-    files = {f"{stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
     if writes_scene:
         material = series.half_space(nu, shift) if nu is not None else series.material(over, shift)
         # the other closure does not determine the edges of a material of several times
@@ -109,14 +108,14 @@ def command(
         tables, comment = material_tables(material, series, source, over)
         with located(scene):
             text = with_material(with_settings(text, edge), tables, comment)
-        files[f"{stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
-    if plot:
-        from ..plots import fitted_modulus, save
+    with outputs_from(data, out, names) as files:
+        write_csv(files.path(names[0]), rows(series, measured), about)
+        if writes_scene:
+            files.path(names[1]).write_text(text, encoding="utf-8", newline="\n")
+        if plot:
+            from ..plots import fitted_modulus, save
 
-        files[f"{stem}.fit.png"] = lambda path: save(fitted_modulus(series, measured), path)
-    with outputs_from(data, out, names) as outputs:
-        for name, write in files.items():
-            write(outputs.path(name))
+            save(fitted_modulus(series, measured), files.path(names[-1]))
     for line in measured.columns:
         say(f"read       {line}")
     say(series.report())
@@ -126,4 +125,4 @@ def command(
         say(f"note       poor fit: {series.quality}")
     for note in left_to_the_user(scene if writes_scene else "", "material"):
         say(note)
-    say_written(out / name for name in files)
+    say_written(out / name for name in names)

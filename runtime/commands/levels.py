@@ -47,19 +47,18 @@ def command(
     from ..scene.edit import with_levels, with_settings, with_solver_seen_from
     from ..scene.errors import located
     from ..scene.load import scene_text
-    from .quantities import metres, pascals
+    from .quantities import quantity
     from .scene_options import left_to_the_user, settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
-    limits = {"longest": metres(longest, "--longest"), "shortest": metres(shortest, "--shortest")}
-    given = settings(scene, pascals(pressure, "--pressure"), title, f"Surface of {surface.name}")
+    limits = {"longest": quantity(longest, "m", "--longest"), "shortest": quantity(shortest, "m", "--shortest")}
+    given = settings(scene, quantity(pressure, "Pa", "--pressure"), title, f"Surface of {surface.name}")
     refuse_unwritable(out, "--out")
     names = [f"{surface.stem}.{part}" for part in ("levels.toml", *["spectrum.png"] * plot)]
     refuse_other_origin(out, names, surface)
     with located(scene):
-        text = with_settings(scene_text(scene)[0], given) if given else scene_text(scene)[0]
-        text = with_solver_seen_from(out, text, scene)
+        text = with_solver_seen_from(out, with_settings(scene_text(scene)[0], given), scene)
         # what is wrong with the scene is said before the work
         with_levels(text, [{"l": 1.0, "h": 1.0}], folder=out, allow_solver=allow_solver)
     scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)

@@ -35,11 +35,11 @@ def command(
     from ..files import refuse_unwritable
     from ..origins import outputs_from, refuse_other_origin
     from ..tables import about_version, write_csv
-    from .quantities import kelvins
+    from .quantities import quantity
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
-    T_ref = kelvins(reference, "--reference")
+    T_ref = quantity(reference, "K", "--reference")
     with as_options(_OPTIONS):
         isotherms = read_isotherms(data, decimal, shear)
     refuse_unwritable(out, "--out")

@@ -15,12 +15,8 @@ def settings(scene: str, pressure: float | None, title: str | None, named: str) 
     """
     if scene == STARTER and pressure is None:
         raise InputError("--pressure", None, 'the nominal pressure, such as "0.2 MPa"; or a --scene that has one')
-    found: dict[str, Any] = {}
-    if title is not None or scene == STARTER:
-        found["title"] = title if title is not None else named
-    if pressure is not None:
-        found["pressure"] = pressure
-    return found
+    title = named if title is None and scene == STARTER else title
+    return {key: each for key, each in (("title", title), ("pressure", pressure)) if each is not None}
 
 
 def left_to_the_user(scene: str, replaced: str) -> list[str]:

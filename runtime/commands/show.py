@@ -31,20 +31,20 @@ def command(
     from ..origins import outputs_from, refuse_other_origin
     from ..scene import load_scene
     from .at import point_of
-    from .quantities import metres
+    from .quantities import quantity
 
     case = load_scene(scene, allow_solver=allow_solver)
     if not 1 <= level <= len(case.levels):
         raise InputError("--level", level, f"the number of a level, 1 to {len(case.levels)}")
     if strip is not None and level > 1:
         raise InputError("--level", level, "1 with --strip: lower levels rub along it")
-    drawn = {"map": map, "strip": strip is not None, "loop": loop}
-    if any(drawn.values()):
+    wanted = {"map": map, "strip": strip is not None, "loop": loop}
+    names = {kind: f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind in wanted if wanted[kind]}
+    if names:
         require("matplotlib", "plot", "drawing")
         refuse_unwritable(out, "--out")
-    y = metres(strip, "--strip") or 0.0
-    names = [f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind, wanted in drawn.items() if wanted]
-    refuse_other_origin(out, names, case.source)
+    y = quantity(strip, "m", "--strip") or 0.0
+    refuse_other_origin(out, [*names.values()], case.source)
     result = point_of(case, pressure, velocity)
     if result.pulled_off and (map or strip is not None):
         allowed = f"one at which there is contact to draw: at {float(result.velocity):g} m/s the surface is pulled off"
@@ -52,9 +52,8 @@ def command(
     if names:
         from ..plots import save
 
-        kinds = [kind for kind, wanted in drawn.items() if wanted]
-        with outputs_from(case.source, out, names) as files:
-            for kind, name in zip(kinds, names, strict=True):
+        with outputs_from(case.source, out, [*names.values()]) as files:
+            for kind, name in names.items():
                 save(result.plot(kind, at=0, level=level, y=y), files.path(name))
     say(result.summary())
-    say_written(out / name for name in names)
+    say_written(out / name for name in names.values())

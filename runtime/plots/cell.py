@@ -26,10 +26,6 @@ def contact_map(cell: ContactMap) -> Figure:
     """Draw a :class:`hystrip.contact_map.ContactMap`: the pressure in colours, contact and adhesion outlined.
 
     Where it hardly varies, a text says by how much: it has one colour.
-
-    Returns
-    -------
-    matplotlib Figure
     """
     from matplotlib.lines import Line2D
 

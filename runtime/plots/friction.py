@@ -65,9 +65,7 @@ def friction(result: Result, kind: str | None = None) -> Figure:
         contact below it; over the load all three and the penetration, one above the other. At p = 0 the line of mu is broken:
         mu has a pole there. So are all lines at pull-off. Circles mark points that did not converge
 
-    Returns
-    -------
-    matplotlib Figure
+    Raises ``InputError`` for a single point, which is no curve.
     """
     velocities, loads = np.unique(result.velocity).size, np.unique(getattr(result, result.load)).size
     if velocities * loads < 2:

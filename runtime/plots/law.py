@@ -10,12 +10,8 @@ from .units import unit_for
 
 @styled
 def law_over_pressure(law: Any, points: int = 400) -> Any:
-    """Draw a :class:`hystrip.FrictionLaw`: friction stress and contact fraction, from pull-off to a little above saturation.
-
-    Returns
-    -------
-    matplotlib Figure
-    """
+    """Draw a :class:`hystrip.FrictionLaw` as a matplotlib Figure: friction stress and contact fraction, from pull-off to a little
+    above saturation, at ``points`` pressures."""
     reach = law.p_sat if law.below >= law.p_sat else law.below
     # a flat level is saturated where it is pulled off
     span = max(reach - law.pull_off, 1e-3 * abs(law.pull_off), np.finfo(float).tiny)

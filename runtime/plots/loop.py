@@ -22,12 +22,7 @@ _JUMP = 0.03
 
 @styled
 def loading_loop(loop: Loop) -> Figure:
-    """Draw a :class:`hystrip.loop.Loop`: mean pressure above, friction below, over penetration; pull-off marked.
-
-    Returns
-    -------
-    matplotlib Figure
-    """
+    """Draw a :class:`hystrip.loop.Loop`: mean pressure above, friction below, over penetration; pull-off marked."""
     upper, lower = stacked(2, COLUMN, 1.15 * COLUMN)
     both = (loop.loading, loop.unloading)
     length, metres = unit_for("m", *(each.D for each in both))

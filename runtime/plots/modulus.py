@@ -9,12 +9,8 @@ from .style import COLUMN, DASHES, OKABE_ITO, axes, styled
 
 @styled
 def fitted_modulus(series: Any, data: Any, points: int = 400) -> Any:
-    """Draw a :class:`hystrip.dma.PronySeries` over the data it was fitted to, a :class:`hystrip.dma.DynamicModulus`.
-
-    Returns
-    -------
-    matplotlib Figure
-    """
+    """Draw a :class:`hystrip.dma.PronySeries`, at ``points`` frequencies, over the :class:`hystrip.dma.DynamicModulus` that it
+    was fitted to, as a matplotlib Figure."""
     panel = axes(COLUMN, 0.8 * COLUMN)
     omega = np.geomspace(data.omega[0], data.omega[-1], points)
     fitted, f = series.modulus(omega), omega / (2 * np.pi)

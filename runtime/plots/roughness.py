@@ -11,13 +11,10 @@ _PER_DECADE = 8
 
 @styled
 def roughness_levels(found: Any, scan: Any) -> Any:
-    """Draw a :class:`hystrip.roughness.RoughnessLevels` over the spectrum of its :class:`hystrip.roughness.Scan`.
+    """Draw a :class:`hystrip.roughness.RoughnessLevels` over the spectrum of its :class:`hystrip.roughness.Scan`, as a matplotlib
+    Figure.
 
     Both show the root mean square height of an eighth of a decade: that of a level is spread evenly over its band.
-
-    Returns
-    -------
-    matplotlib Figure
     """
     q, variance = scan.spectrum()
     wavelengths = 2 * np.pi / q.max(axis=0)

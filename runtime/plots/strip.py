@@ -21,23 +21,16 @@ if TYPE_CHECKING:
 
 @styled
 def strip_fields(strip: StripSolution, points: int = 1001) -> Figure:
-    """Draw a single strip: pressure above, foundation and profile below, contact shaded.
+    """Draw a single strip at ``points`` places: pressure above, foundation and profile below, contact shaded.
 
-    Returns
-    -------
-    matplotlib Figure
+    Raises ``InputError`` for a solution of several strips.
     """
     return _draw(strip, points, None, "")
 
 
 @styled
 def strip_stresses(strip: StripSolution, x: Floats, stresses: Sequence[Floats], title: str) -> Figure:
-    """The same, and the tangential stress of every level along the strip (Fig. 5): ``stresses`` at ``x`` (m), Pa.
-
-    Returns
-    -------
-    matplotlib Figure
-    """
+    """The same, and the tangential stress along the strip (Fig. 5), Pa: ``stresses`` of level 1 and of those below at ``x``."""
     return _draw(strip, x.size, stresses, title)
 
 
@@ -47,7 +40,7 @@ def _draw(strip: StripSolution, points: int, stresses: Sequence[Floats] | None, 
     period = float(np.ravel(strip.wavelength)[0])
     x = np.linspace(-0.5, 0.5, points) * period
     p, w, gap = (np.ravel(each(x)) for each in (strip.pressure, strip.displacement, strip.gap))
-    panels = stacked(2 if stresses is None else 3, COLUMN, (0.6 if stresses is None else 0.52 * 1.5) * 2 * COLUMN)
+    panels = stacked(2 if stresses is None else 3, COLUMN, (1.2 if stresses is None else 1.56) * COLUMN)
     share = x / period
     _pressure(panels[0], share, p)
     heights = np.ptp(w), np.ptp(w - gap)
@@ -70,9 +63,7 @@ def _draw(strip: StripSolution, points: int, stresses: Sequence[Floats] | None, 
     figure.align_ylabels()
     found = dict(zip(*reversed(panels[1].get_legend_handles_labels()), strict=True))
     if stresses is not None and len(stresses) > 1:
-        found |= {
-            label: handle for handle, label in zip(*panels[2].get_legend_handles_labels(), strict=True) if label != "contact"
-        }
+        found |= dict(zip(*reversed(panels[2].get_legend_handles_labels()), strict=True))
     legend_above(figure, list(found.values()), list(found))
     return figure
 
@@ -86,10 +77,8 @@ def _pressure(panel: Any, share: np.ndarray, p: np.ndarray) -> None:
 
 def _stresses(panel: Any, share: np.ndarray, stresses: Sequence[Floats]) -> None:
     factor, unit = unit_for("Pa", *stresses)
-    for index, stress in enumerate(stresses):
-        color, dash, label = ((OKABE_ITO[0], "-", "stress of level 1"), (OKABE_ITO[2], DASHES[1], "stress of the levels below"))[
-            index
-        ]
+    looks = ((OKABE_ITO[0], "-", "stress of level 1"), (OKABE_ITO[2], DASHES[1], "stress of the levels below"))
+    for stress, (color, dash, label) in zip(stresses, looks, strict=False):
         panel.plot(share, stress / factor, color=color, linestyle=dash, label=label)
     panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panel.set_ylabel(f"tangential stress ({unit})")

@@ -27,10 +27,6 @@ def over_swept(sweep: Sweep) -> Figure:
     """Draw a :class:`hystrip.Sweep` over the swept quantity of most values, the last of them: a line for each of at most six
     combinations of the others (of more the legend says so). Lines end where points failed or are pulled off; circles mark
     points that did not converge.
-
-    Returns
-    -------
-    matplotlib Figure
     """
     axes, grid = sweep.plan.axes, sweep.plan.combine == "grid"
     at = max(range(len(axes)), key=lambda n: (np.unique(axes[n].values).size, n))
