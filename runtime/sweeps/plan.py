@@ -18,14 +18,7 @@ from ..inputs.materials import check_edge, kernel_of
 from ..inputs.shift import check_exponents
 from ..loading import solver_key
 from ..scene.errors import SceneError, nearest
-from ..scene.load import (
-    build_adhesion,
-    build_level,
-    build_material,
-    build_objects,
-    quantities,
-    refuse_ambiguous,
-)
+from ..scene.load import build_adhesion, build_level, build_material, build_objects, quantities, refuse_ambiguous
 from . import code
 
 _LOADS = ("pressure", "penetration")
@@ -87,14 +80,15 @@ class Plan:
     def levels(self) -> int:
         return len(self.base["levels"])
 
-    @property
-    def load(self) -> str:
-        return "penetration" if self.base["pressure"] is None else "pressure"
-
     def coordinates(self, points: np.ndarray) -> np.ndarray:
         """Values of the axes at points (n,), shape (n, axes)."""
         index = np.unravel_index(points, self.shape) if self.combine == "grid" else [points] * len(self.axes)
         return np.column_stack([axis.values[i] for axis, i in zip(self.axes, index, strict=True)])
+
+    @cached_property
+    def solved(self) -> dict[str, Any]:
+        """What of the scene the numbers depend on."""
+        return {key: each for key, each in self.base.items() if key not in ("title", "description", "sweep")}
 
     @cached_property
     def solver(self) -> str:
@@ -104,9 +98,8 @@ class Plan:
     @cached_property
     def fingerprint(self) -> str:
         """Changes with anything that the numbers, their order or the batches depend on: the code that solves, too."""
-        solved = {key: each for key, each in self.base.items() if key not in ("title", "description", "sweep")}
         axes = [[axis.key, axis.values] for axis in self.axes]
-        seen = [solved, self.solver, axes, self.combine, self.batch, code.code_key()]
+        seen = [self.solved, self.solver, axes, self.combine, self.batch, code.code_key()]
         return hashlib.sha256(json.dumps(seen, default=_listed, sort_keys=True).encode()).hexdigest()
 
 
@@ -207,11 +200,8 @@ def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
 def _put(values: dict[str, Any], key: str, given: Any) -> None:
     known = [*keys_of(values)]
     if key not in known:
-        if (
-            isinstance(key, str)
-            and (key == "temperature" or key.startswith("material.shift."))
-            and not values["material"]["shift"]
-        ):
+        of_shift = isinstance(key, str) and (key == "temperature" or key.startswith("material.shift."))
+        if of_shift and not values["material"]["shift"]:
             raise InputError("over", key, "a quantity of the scene; this one needs a [material.shift] (WLF or Arrhenius)")
         near = nearest(key, known) if isinstance(key, str) else None
         raise InputError("over", key, f"one of {', '.join(known)}" + (f" (did you mean {near!r}?)" if near else ""))
@@ -220,24 +210,15 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
         raise InputError(key, given, "a number or a one-dimensional list of numbers, at least one")
     if key in _LOADS:
         values["pressure"] = values["penetration"] = None
-    level = re.fullmatch(r"levels\[(\d+)\]\.(\w+)", key)
-    shift = re.fullmatch(r"material\.shift\.(\w+)", key)
-    branch = re.fullmatch(r"material\.(\w+)\[(\d+)\]", key)
-    if level:
-        values["levels"][int(level[1])][level[2]] = array
-    elif shift:
-        values["material"]["shift"][shift[1]] = array
-    elif branch:
-        values["material"][branch[1]][int(branch[2])] = array
-    elif "." in key:
-        table, field = key.split(".")
-        if table == "adhesion":
-            values["adhesion"] = values["adhesion"] or {"gamma": None, "p_0": None, "delta_0": np.array(0.0)}
-            if field in ("gamma", "p_0"):
-                values["adhesion"]["gamma"] = values["adhesion"]["p_0"] = None
-        values[table][field] = array
-    else:
-        values[key] = array
+    if key.startswith("adhesion."):
+        values["adhesion"] = values["adhesion"] or {"gamma": None, "p_0": None, "delta_0": np.array(0.0)}
+        if key != "adhesion.delta_0":
+            values["adhesion"]["gamma"] = values["adhesion"]["p_0"] = None
+    *path, last = (int(step) if step.isdigit() else step for step in re.findall(r"\w+", key))
+    place: Any = values
+    for step in path:
+        place = place[step]
+    place[last] = array
 
 
 def keys_of(values: dict[str, Any]) -> list[str]:

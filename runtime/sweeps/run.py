@@ -211,11 +211,10 @@ class _Run:
     def __init__(self, plan: Plan, store: Store, progress: Progress | None):
         self.plan, self.store, self.progress = plan, store, progress
         self.solved = self.kept = self.done = 0
-        self._base = {key: each for key, each in plan.base.items() if key not in ("title", "description", "sweep")}
 
     def all(self, executor: Executor, in_flight: int) -> None:
         """Solve what is missing, with so many batches in flight."""
-        waiting = self._with_missing(_Block(points, first_size(self.plan)) for points in blocks(self.plan))
+        waiting = filter(self._missing, (_Block(points, first_size(self.plan)) for points in blocks(self.plan)))
         running: dict[Future, _Block] = {}
         if self.progress:
             self.progress(0, self.plan.size)
@@ -241,9 +240,6 @@ class _Run:
         if fresh_code_key() != code_key():
             raise HystripError("the installed hystrip changed while the sweep ran: run the sweep with --restart")
 
-    def _with_missing(self, blocks: Iterator[_Block]) -> Iterator[_Block]:
-        return (block for block in blocks if self._missing(block))
-
     def _missing(self, block: _Block) -> bool:
         """Go on to the first batch of a block that is not on disk; False if all are."""
         while (stored := self.store.read(block.at, block.size)) is not None:
@@ -261,7 +257,7 @@ class _Run:
     def _task(self, block: _Block) -> Task:
         keys = tuple(axis.key for axis in self.plan.axes)
         coordinates = self.plan.coordinates(np.arange(block.at, block.at + block.size))
-        return Task(block.at, self._base, keys, coordinates, code_key(), self.plan.solver)
+        return Task(block.at, self.plan.solved, keys, coordinates, code_key(), self.plan.solver)
 
 
 def _failed(future: Future) -> bool:
@@ -290,11 +286,8 @@ def _collected(plan: Plan, store: Store) -> dict[str, Any]:
     for batch in stored:
         for row, reason in batch.failed.items():
             failed[batch.first + row] = reason
-    coordinates = plan.coordinates(np.arange(plan.size))
-    axes = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
     values = {each.column: np.concatenate([batch.columns[each.column] for batch in stored]) for each in variables(plan.levels)}
-    velocity = np.full(plan.size, float(plan.base["velocity"])) if "velocity [m/s]" not in axes else np.empty(0)
-    return table(axes, values, velocity, failed)
+    return table(plan, values, failed)
 
 
 def _all_batches(plan: Plan, store: Store) -> Iterator[Batch]:

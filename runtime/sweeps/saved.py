@@ -11,9 +11,9 @@ import numpy as np
 from ..errors import InputError
 from ..scene.load import parse_toml
 from ..scene.validate import validated
-from ..sweeps.plan import plan_of
-from ..sweeps.run import Sweep
-from ..sweeps.variables import table, variables
+from .plan import plan_of
+from .run import Sweep
+from .variables import table, variables
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -35,18 +35,13 @@ def sweep_of(data: Dataset, path: Path, solver: Solver | None) -> Sweep:
         values["material"]["solver"] = str(solver.folder)
     plan = plan_of(values, about["name"], data.attrs["scene"], about["values"], about["combine"], about["batch"])
     swept = {axis.name for axis in plan.axes}
+    failed = [str(each) for each in data["failed"].values.ravel()]
     found = {}
     for each in variables(plan.levels):
-        variable = data[each.name]
         if each.name in swept:  # the load is an axis: its column is that of the axis
             continue
-        along = variable.values[each.level - 1] if each.level else variable.values
-        found[each.column] = np.array(along, dtype=float).ravel()
-    failed = [str(each) for each in data["failed"].values.ravel()]
-    for each in variables(plan.levels):
+        values = data[each.name].values
+        found[each.column] = np.array(values[each.level - 1] if each.level else values, dtype=float).ravel()
         if each.truth:
             found[each.column][[bool(reason) for reason in failed]] = np.nan
-    coordinates = plan.coordinates(np.arange(plan.size))
-    axes = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
-    velocity = np.full(plan.size, float(data["velocity"])) if "velocity" not in swept else np.empty(0)
-    return Sweep(table(axes, found, velocity, failed), path, plan, 0, 0)
+    return Sweep(table(plan, found, failed), path, plan, 0, 0)
