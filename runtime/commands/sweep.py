@@ -68,10 +68,8 @@ def command(
     again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
     say(f"{done.plan.size} points{again}")
     if done.failed:
-        say(
-            f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}",
-            err=True,
-        )
+        first = next(iter(done.failed.values()))
+        say(f"{len(done.failed)} points failed; the column 'failed' says why, the first: {first}", err=True)
     say_written([done.path, *(out / name for name in more)])
     if len(done.failed) == done.plan.size:
         raise typer.Exit(1)

@@ -42,11 +42,8 @@ def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None, she
     groups = grouped(readings)
     for rows in groups:
         if _count(readings, rows) < 2:
-            raise InputError(
-                f"{readings.where}, temperature",
-                f"one frequency at {degrees(readings.temperature[rows].mean())}",
-                "two or more frequencies at each temperature",
-            )
+            found = f"one frequency at {degrees(readings.temperature[rows].mean())}"
+            raise InputError(f"{readings.where}, temperature", found, "two or more frequencies at each temperature")
     drift = max(np.ptp(readings.temperature[rows]) for rows in groups)
     if drift > _ONE:
         line = f"temperature drifts by up to {drift:.1f} K within an isotherm: its mean is taken, and shifts are as uncertain"
@@ -75,11 +72,8 @@ def _by_set(readings: Readings) -> list[np.ndarray]:
     for name, rows in groups.items():
         T = readings.temperature[rows]
         if np.ptp(T) > _DRIFT:
-            raise InputError(
-                f"{readings.where}, Set {name!r}",
-                f"{degrees(T.min())} to {degrees(T.max())}",
-                f"one temperature, within {_DRIFT:g} K",
-            )
+            span = f"{degrees(T.min())} to {degrees(T.max())}"
+            raise InputError(f"{readings.where}, Set {name!r}", span, f"one temperature, within {_DRIFT:g} K")
     return list(groups.values())
 
 
@@ -93,11 +87,9 @@ def _by_temperature(readings: Readings) -> list[np.ndarray]:
         parts = _at_gaps(readings, rows) or _sweeps(readings, np.sort(rows))
         if not parts:
             T = readings.temperature[rows]
-            raise InputError(
-                f"{readings.where}, temperature",
-                f"{degrees(T.min())} to {degrees(T.max())}, without gaps of {_APART:g} K",
-                "temperatures that can be told apart, a sweep of frequency at each from row to row, or a column Set",
-            )
+            span = f"{degrees(T.min())} to {degrees(T.max())}, without gaps of {_APART:g} K"
+            allowed = "temperatures that can be told apart, a sweep of frequency at each from row to row, or a column Set"
+            raise InputError(f"{readings.where}, temperature", span, allowed)
         found += parts
     return found
 

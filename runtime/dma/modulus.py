@@ -43,7 +43,7 @@ class DynamicModulus:
     omega: np.ndarray
     storage: np.ndarray
     loss: np.ndarray
-    kind: str = field(default="E")
+    kind: str = "E"
     temperature: float | None = None
     columns: tuple[str, ...] = field(default=(), repr=False)
 

@@ -154,20 +154,16 @@ def _numbers(
     """Numbers of the rows that have all of them, (n, columns), and these rows."""
     out, kept = [], []
     for line, row in rows:
-        values = []
+        values, place = [], f"{table.where}, line {line}"
         for column in columns:
             text = table.number(row, column.index)
             try:
                 values.append(as_number(text, comma))
             except ValueError:
-                sign = "comma" if comma else "point"
-                raise InputError(
-                    f"{table.where}, line {line}, column {column.name!r}", text, f"a number with a decimal {sign}, or nothing"
-                ) from None
+                allowed = f"a number with a decimal {'comma' if comma else 'point'}, or nothing"
+                raise InputError(f"{place}, column {column.name!r}", text, allowed) from None
         if np.isinf(values).any():
-            raise InputError(
-                f"{table.where}, line {line}", [table.cell(row, column.index) for column in columns], "finite numbers"
-            )
+            raise InputError(place, [table.cell(row, column.index) for column in columns], "finite numbers")
         if not np.isnan(values).any():
             out.append(values)
             kept.append((line, row))
@@ -175,20 +171,13 @@ def _numbers(
 
 
 def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left_out: int) -> tuple[str, ...]:
-    words = {
-        "frequency": "frequency",
-        "omega": "angular frequency",
-        "storage": "storage modulus",
-        "loss": "loss modulus",
-        "tan": "tan delta",
-        "phase": "phase angle delta",
-        "absolute": "absolute value of the modulus",
-        "temperature": "temperature",
-        "set": "set of one temperature",
-    }
+    words = {"omega": "angular frequency", "storage": "storage modulus", "loss": "loss modulus", "tan": "tan delta",
+             "phase": "phase angle delta", "absolute": "absolute value of the modulus",
+             "set": "set of one temperature"}  # fmt: skip
     lines = []
     for role, column in chosen.items():
-        word = words["omega" if "rad" in column.unit and role == "frequency" else role] + f" {column.kind}".rstrip()
+        said = "omega" if "rad" in column.unit and role == "frequency" else role
+        word = words.get(said, said) + f" {column.kind}".rstrip()
         unit = f", in {column.unit}" if column.unit and role not in ("tan", "set") else ""
         if role in ("frequency", "omega") and per_second(column):
             unit += ", taken for Hz, cycles per second" if role == "frequency" else ", taken for rad/s"

@@ -50,12 +50,9 @@ def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Super
             lack = f"about {-shared:.1f} decades are missing" if shared > -1 else "more than a decade is missing"
         elif shared < _LEAST_SHARED:
             lack = f"they share {shared:.2f}"
-        raise InputError(
-            "isotherms",
-            f"{degrees(isotherms[i].temperature)} and {degrees(isotherms[i + 1].temperature)}{others}",
-            f"neighbours that overlap after shifting, by {_LEAST_SHARED:g} decades; here {lack}: measure between them, or "
-            "over a wider band, or leave out what lies beyond",
-        )
+        between = f"{degrees(isotherms[i].temperature)} and {degrees(isotherms[i + 1].temperature)}{others}"
+        allowed = f"neighbours that overlap after shifting, by {_LEAST_SHARED:g} decades; here {lack}: measure between them, or "
+        raise InputError("isotherms", between, f"{allowed}over a wider band, or leave out what lies beyond")
     return found
 
 

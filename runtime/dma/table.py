@@ -99,10 +99,11 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
     first = next((line for line in lines if line.strip()), "")
     if not first:
         raise InputError(where, "no text", "a row of names (frequency, storage and loss modulus, with units), then numbers")
-    allowed = "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta"
-    raise InputError(
-        where, first, f"{allowed}; separated by comma, semicolon or tab, or by blanks; among the first {_PREAMBLE} rows"
+    allowed = (
+        "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta; "
     )
+    allowed += f"separated by comma, semicolon or tab, or by blanks; among the first {_PREAMBLE} rows"
+    raise InputError(where, first, allowed)
 
 
 def _joined(names: list[str], rows: list[tuple[int, list[str]]]) -> tuple[list[tuple[int, list[str]]], int]:

@@ -183,15 +183,9 @@ def _changes(values: np.ndarray) -> np.ndarray:
 
 
 def _draw(
-    panel: Any,
-    quantity: _Quantity,
-    x: np.ndarray,
-    curves: Any,
-    unit: tuple[float, str],
-    pressure: np.ndarray,
-    off: np.ndarray,
-    sure: np.ndarray,
-) -> None:
+    panel: Any, quantity: _Quantity, x: np.ndarray, curves: Any, unit: tuple[float, str],
+    pressure: np.ndarray, off: np.ndarray, sure: np.ndarray,
+) -> None:  # fmt: skip
     """Curves over ascending x, at which the pressure is ``pressure``, the surface pulled off where ``off`` says so, and which has
     converged where it is ``sure``."""
     pole = quantity is _QUANTITIES["mu"] and pressure.min() <= 0

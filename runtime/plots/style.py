@@ -59,7 +59,10 @@ def stacked(count: int, width: float, height: float, **options: Any) -> Any:
 
 @styled
 def save(figure: Any, path: str | os.PathLike[str]) -> None:
-    """Write a figure; the suffix (``.png``, ``.svg``, ``.pdf``) decides the format. PNG has 300 dots per inch."""
+    """Write a figure; the suffix (``.png``, ``.svg``, ``.pdf``) decides the format. PNG has 300 dots per inch.
+
+    Raises ``InputError`` for what is no figure, and for a suffix of no format.
+    """
     if not hasattr(figure, "savefig"):
         raise InputError("figure", figure, "a matplotlib Figure, such as result.plot()")
     target = path_of(path, "path", "a picture to write")

@@ -165,12 +165,8 @@ def build_level(values: dict[str, Any], index: int) -> Any:
     return _made("Level", {key: float(each) for key, each in values["levels"][index].items()}, f"levels[{index}]")
 
 
-_MODELS = {
-    "standard_linear_solid": "StandardLinearSolid",
-    "kelvin_voigt": "KelvinVoigt",
-    "prony": "Prony",
-    "half-space": "HalfSpace",
-}
+_MODELS = {"standard_linear_solid": "StandardLinearSolid", "kelvin_voigt": "KelvinVoigt", "prony": "Prony",
+           "half-space": "HalfSpace"}  # fmt: skip
 
 
 def _parameters(material: dict[str, Any]) -> dict[str, Any]:

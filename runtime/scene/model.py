@@ -58,18 +58,8 @@ class Scene:
     def solve(self, progress: Progress | None = None) -> Result:
         """Solve every combination of load and velocity.
 
-        Parameters
-        ----------
-        progress : called with (done, total) as the work goes on
-
-        Returns
-        -------
-        result of :func:`hystrip.solve`, arrays of shape load.shape + velocity.shape (a level axis in front where
-        there is one)
-
-        Raises
-        ------
-        InputError, SolverError : as :func:`hystrip.solve`
+        Returns the result of :func:`hystrip.solve`, arrays of shape load.shape + velocity.shape (a level axis in front where
+        there is one). ``progress`` is called with (done, total) as the work goes on. Raises as :func:`hystrip.solve`.
         """
         import hystrip
 
@@ -77,19 +67,9 @@ class Scene:
 
         name, load = self.load
         options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}
+        options |= {key: getattr(self, key) for key in ("velocity", "edge", "branch", "rtol", "strips", "temperature")}
         if progress is not None:
             options["progress"] = progress
         with located(self.source):
-            result = hystrip.solve(
-                self.material,
-                self.adhesion,
-                self.levels,
-                velocity=self.velocity,
-                edge=self.edge,
-                branch=self.branch,
-                rtol=self.rtol,
-                strips=self.strips,
-                temperature=self.temperature,
-                **options,
-            )
+            result = hystrip.solve(self.material, self.adhesion, self.levels, **options)
         return dataclasses.replace(result, scene=self.text)

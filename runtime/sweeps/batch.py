@@ -74,9 +74,8 @@ OTHER_CODE = "a worker has another hystrip than this process: install the same v
 def _refuse_changed_solver(task: Task) -> None:
     folder = task.base["material"]["solver"]
     if solver_key(folder) != task.solver:
-        raise HystripError(
-            f"material.solver: the code in {folder} changed while the sweep ran: put it back, or run the sweep with --restart"
-        )
+        changed = f"material.solver: the code in {folder} changed while the sweep ran"
+        raise HystripError(f"{changed}: put it back, or run the sweep with --restart")
 
 
 def _solve(
@@ -108,13 +107,5 @@ def _result(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> A
     objects = single(base, [task.keys[i] for i in fixed], at)
     run = {key: np.broadcast_to(base[key], rows.size) for key in RUN_KEYS if base[key] is not None and key not in task.keys}
     run |= {key: task.coordinates[rows, i] for i, key in enumerate(task.keys) if key in RUN_KEYS}
-    return hystrip.solve(
-        objects["material"],
-        objects["adhesion"],
-        objects["levels"],
-        **run,
-        edge=base["edge"],
-        branch=base["branch"],
-        rtol=base["rtol"],
-        strips=base["strips"],
-    )
+    options = {key: base[key] for key in ("edge", "branch", "rtol", "strips")}
+    return hystrip.solve(objects["material"], objects["adhesion"], objects["levels"], **run, **options)

@@ -42,8 +42,5 @@ def _read(key: str, written: str):
             continue
         except (msgspec.ValidationError, SystemError):  # the latter at integers of thousands of digits, up to msgspec 0.20
             break
-    raise InputError(
-        key,
-        written,
-        'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}',
-    )
+    allowed = 'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}'
+    raise InputError(key, written, allowed)

@@ -162,13 +162,11 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     _refuse_hopeless(values, {axis.key for axis in axes})
     sizes = {axis.key: axis.values.size for axis in axes}
     if combine == "list" and len(set(sizes.values())) > 1:
-        raise SceneError(
-            "sweep.combine", "list", 'lists and ranges of one length, or combine = "grid"', f"lengths differ: {sizes}"
-        )
+        allowed = 'lists and ranges of one length, or combine = "grid"'
+        raise SceneError("sweep.combine", "list", allowed, f"lengths differ: {sizes}")
     if not axes:
-        raise SceneError(
-            "", None, "a list or a range for at least one quantity", "nothing is swept: every quantity is a single value"
-        )
+        problem = "nothing is swept: every quantity is a single value"
+        raise SceneError("", None, "a list or a range for at least one quantity", problem)
     plan = Plan(name, text, values, axes, combine, batch)
     if plan.size > _MOST:
         raise SceneError("", plan.size, f"at most {_MOST:.0e} points", f"{plan.size} points")

@@ -180,10 +180,6 @@ def _shade(axes: Any, regime: str, at: dict[str, float]) -> None:
                 axes.axvspan(max(low + shift, -0.75), min(high + shift, 0.75), color=color, lw=0)
 
 
-def _parameters(scene: dict[str, Any]) -> str:
-    return ", ".join(_each(scene))
-
-
 def _lines(scene: dict[str, Any]) -> list[str]:
     """The parameters in lines that fit across a picture, broken between two of them."""
     return wrap(", ".join(each.replace(" ", UNBROKEN) for each in _each(scene)), LINE)
@@ -202,6 +198,6 @@ def _caption(scene: dict[str, Any], strip: Any) -> str:
     met = "" if off is None else f" At these edges the boundary equations, as generated, are off zero by at most {off:.0e}."
     zones = "Orange: contact; blue: adhesion. " if str(strip.regime) != "f" else ""
     return (
-        f"{strip.regime_name} ({strip.regime}), {scene['edge']}, {scene['branch']}. {zones}{_parameters(scene)}. "
+        f"{strip.regime_name} ({strip.regime}), {scene['edge']}, {scene['branch']}. {zones}{', '.join(_each(scene))}. "
         f"Mean pressure {float(strip.p_mean):.4g} Pa, mean friction {float(strip.tau_mean):.4g} Pa.{met}"
     )
