@@ -15,7 +15,8 @@ _POINTS, _LENGTH, _RMS, _HURST = 256, 4000.0, 25.0, 0.8
 
 SCENE = """\
 # A tread compound on a rough road. Make it yours, step by step:
-#   hystrip master raw.csv                                   isotherms -> a master curve (rubber.csv is one already)
+#   hystrip master raw.csv --vertical                        isotherms -> hystrip-out/raw.master.csv, for the next step in
+#                                                            place of rubber.csv, which is a master curve already
 #   hystrip fit rubber.csv --nu 0.49 --scene scene.toml      its relaxation times -> hystrip-out/rubber.fitted.toml
 #   hystrip levels scan.txt --count 3 --scene hystrip-out/rubber.fitted.toml   the road -> hystrip-out/scan.levels.toml
 #   hystrip solve hystrip-out/scan.levels.toml --summary     friction over velocity

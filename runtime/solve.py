@@ -68,7 +68,8 @@ def solve(
         and the error estimate says the rest
     skip : use the closed form where every level is saturated (off: every point is solved)
     progress : called with the number of points done and the total
-    temperature : K, for a material with a ``shift``; without it the material is as it was given
+    temperature : K, one for all points, for a material with a ``shift``; without it the material is as it was given. Several
+        temperatures are a :func:`hystrip.sweep`
 
     Raises
     ------

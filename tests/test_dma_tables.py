@@ -197,7 +197,7 @@ def test_moduli_without_a_letter(tmp_path):
     path = written(tmp_path, table("f [1/s];Storage Modulus [MPa];Loss Modulus [MPa]"))
     found = read_dma(path)
     said = "\n".join(found.columns)
-    assert found.kind == "E" and "taken for Young's, E" in said and "shear=True (`hystrip fit --shear`)" in said
+    assert found.kind == "E" and "taken for Young's, E" in said and "shear=True (--shear)" in said
     assert "in 1/s, taken for Hz, cycles per second" in said
     shear = read_dma(path, shear=True)
     assert shear.kind == "G" and shear.storage.tolist() == found.storage.tolist() and "of shear, G" in "\n".join(shear.columns)

@@ -121,7 +121,7 @@ def _kind(where: str, columns: list[Column], shear: bool) -> tuple[str, str]:
         return kinds.pop(), ""
     if shear:
         return "G", "moduli: of shear, G, as asked for"
-    return "E", "moduli: taken for Young's, E; for shear moduli, G: names such as G', or shear=True (`hystrip fit --shear`)"
+    return "E", "moduli: taken for Young's, E; for shear moduli, G: names such as G', or shear=True (--shear)"
 
 
 def _chosen(where: str, table: Table, columns: list[Column]) -> tuple[tuple[str, str], dict[str, Column]]:
