@@ -72,7 +72,8 @@ EXPORTS = {
     "quotation mark below": table("f [Hz];E' [MPa];E'' [MPa];note").replace("0.25\n", '0.25;"3 inch\n'),
     "name of two lines": table('f [Hz];"E\'\n[MPa]";"E\'\'\n[MPa]"'),
     "blanks, as many as align": "Frequency [Hz]   E' [MPa]  tan delta\n 0.5       1.5      0.16666666666666666\n 5  3  0.25\n",
-    "a blank each": "Remark: frequency, storage\nf [Hz] storage modulus (MPa) loss modulus (MPa)\n0,5 1,5 0,25\n5 3 0,75\n",
+    "a blank each": "Sample of frequency, storage\nSample: frequency storage loss\n"
+    "f [Hz] storage modulus (MPa) loss modulus (MPa) Note\n0,5 1,5 0,25 x\n5 3 0,75 x\n",
     "blanks, units below": "angular frequency  E_stor  E''   note\nrad/s  MPa  N/mm^2  -\n"
     + "".join(f"{w!r} {E[0]} {E[1]} ok\n" for w, E in zip(RAD, MPA, strict=True)),
     "blanks beside a slash": "f / Hz E' / MPa E'' in MPa\n0.5\t1.5 0.25\n5 3 0.75\n",
@@ -141,6 +142,14 @@ REFUSED = {
     "names that blanks part in several ways": (
         "f storage modulus loss modulus\nHz MPa MPa\n1 2 1\n2 3 2\n",
         "line 1: .*as many names",
+    ),
+    "a column missing below names that blanks part surely": (
+        "E' [MPa]  t (s)  tan delta  Force [N]  f (Hz)\n3.7 49.3 0.6 0.1\n4.4 74.8 0.3 10\n",
+        "line 1: .*as many names as numbers below",
+    ),
+    "a number more than names behind the sign of a remark": (
+        "# f [Hz]  E' [MPa]  E'' [MPa]\n1 2 1 500\n2 3 2 500\n",
+        "line 1: got .*'f .Hz.'.*as many names as numbers below",
     ),
     "blanks and commas": ("f E' E''\nHz Pa Pa\n1.500, 2.500, 3.500\n2.500, 3.500, 4.500\n", "line 3: .*parted by blanks alone"),
     "one column short, between blanks": ("f [Hz]  E' [MPa]  Elost [MPa]\n1  2  1\n2  3  2\n", "line 1: got .*also one more of"),

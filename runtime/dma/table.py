@@ -80,10 +80,11 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
     # blanks stand in names and remarks too: only where nothing else parts the cells
     texts = [(line, text.strip(" \t")) for line, text in enumerate(lines, 1) if text.strip()]
     for marked, (at, (line, text)) in itertools.product((False, True), enumerate(texts[:_PREAMBLE])):
-        for names in _parted_by_blanks(text.lstrip("#% ") if marked else text):
+        for names in _parted_by_blanks(text.lstrip("#% ")) if marked == text.startswith(("#", "%")) else ():
             count, words = lacking(names)
-            first = [_cells(below, len(names)) for _, below in texts[at + 1 : at + 3]]
-            fits = any(len(cells) == len(names) and _numeric(cells, 3) for cells in first)
+            head = [_cells(below.lstrip("#% "), len(names)) for _, below in texts[at + 1 : at + 3]]
+            fits = any(len(cells) == len(names) and _numeric(cells, 3) for cells in head)
+            fits &= all(lacking(cells)[0] for cells in head)  # or it is a remark above the names
             if fits and not count:
                 below, times = _joined(names, [(line, _cells(below, len(names))) for line, below in texts[at + 1 :]])
                 return _checked(Table(where, names, below, _BLANKS, line, tuple(lines[: line - 1]), times))
@@ -99,10 +100,8 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
     first = next((line for line in lines if line.strip()), "")
     if not first:
         raise InputError(where, "no text", "a row of names (frequency, storage and loss modulus, with units), then numbers")
-    allowed = (
-        "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta; "
-    )
-    allowed += f"separated by comma, semicolon or tab, or by blanks; among the first {_PREAMBLE} rows"
+    allowed = "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta"
+    allowed += f"; separated by comma, semicolon or tab, or by blanks; among the first {_PREAMBLE} rows"
     raise InputError(where, first, allowed)
 
 
@@ -128,14 +127,14 @@ def _numeric(cells: Sequence[str], least: int = 1) -> bool:
 
 
 def _parted_by_blanks(text: str) -> list[list[str]]:
-    """The cells of a row of names, in each way that blanks may part them, fewest first: by two or more, or all behind brackets,
-    or wherever they stand. Blanks within brackets, before them and beside a slash part none."""
+    """The cells of a row of names, in each way that blanks may part them, the surest first: by two or more, or all behind
+    brackets, or wherever they stand. Blanks within brackets, before them and beside a slash part none."""
     if len(text.split()) > _MOST_WORDS:
         return []
     held = _IN_BRACKETS.sub(lambda found: re.sub(r"[ \t]", "\0", found[0]), text)
     held = re.sub(r"(?<![ \t])[ \t]+(?:(?=[\[({<])|(/|in)[ \t]+)", lambda found: f"\0{found[1]}\0" if found[1] else "\0", held)
-    ways = [re.split(blanks, held) for blanks in (r"[ \t]{2,}|\t", r"(?<=[\])}>])[ \t]+", r"[ \t]+")]
-    return sorted(([name.replace("\0", " ") for name in way] for way in ways), key=len)
+    ways = (re.split(blanks, held) for blanks in (r"[ \t]{2,}|\t", r"(?<=[\])}>])[ \t]+", r"[ \t]+"))
+    return [[name.replace("\0", " ") for name in way] for way in ways]
 
 
 def _cells(text: str, count: int) -> list[str]:
