@@ -61,7 +61,8 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
 
     ``lacking`` : of a row of names, how many of the columns that are needed are not there, and these in words
 
-    Raises ``InputError`` naming the file: not readable, not text, without such a row, or with more cells in a row than names.
+    Raises ``InputError`` naming the file: not readable, not text, without such a row, or with more cells in a row than names;
+    where blanks part them, with fewer.
     """
     where = str(path_of(path, "path", "a text file with a table"))
     lines = _text(where).splitlines()
