@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..groups import TWO_PI
+from ..groups import ROUNDING, TWO_PI
 from ..march import Orbit, turn
 from ..regimes import CODE
 from ..solved import Record, Solved, settle
@@ -41,7 +41,10 @@ class _Batch:
         s = self.strips
         sticky = s.p_0 > 0
         # saturated contact, and adhesion all along: closed forms of the always engaged orbit
-        self.full = s.D - 1 + s.p_0 >= self.kernel.modulus_ratio(s.m)
+        R, least = self.kernel.modulus_ratio(s.m), s.D - 1 + s.p_0
+        self.full = least >= R
+        # by how much pressures of saturated contact fall short, times how long: 1e-12 of their means at most
+        self.nearly = np.maximum(R - least, 0.0) ** 1.5 <= 64 * ROUNDING * (1 + np.abs(s.D) + s.p_0) * np.sqrt(R)
         self.constant = self.full | sticky & (s.D <= -s.p_0) & (2 - s.D - s.p_0 <= s.delta_0)
         free = np.where(sticky, (s.D <= -s.delta_0) & (not self.unloading), s.D <= 0)
         closed = ~free & self.constant & (self.unloading | ~sticky)
@@ -91,6 +94,8 @@ class _Batch:
         k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]
         self.record.orbits(index[k], sequence, Orbit.of(sequence, edges[:, k]))
+        # of a gap that hardly opens rounding may leave nothing
+        self.record.saturated_contact(index[~known & self.nearly[index]])
         return z, known
 
 

@@ -66,7 +66,8 @@ class Search:
         self.edges[:, i[held]] = near.edges[:, held]
         going = ~(held | lets | near.lost)
         once = going & (near.onsets == 1) & (near.releases == 1) & (near.contacts <= 1) & (near.engaged == self.engaged[i])
-        k = np.flatnonzero(once)
+        # a march that begins in contact does not meet its entry
+        k = np.flatnonzero(once & (np.isnan(near.edges[1]) == np.isnan(near.edges[2])))
         edges = in_order(near.edges[:, k])
         edges[1:3] = np.where(np.isnan(edges[1:3]).any(axis=0), edges[0], edges[1:3])
         if number < 2 or number % 4 == 3:

@@ -13,8 +13,8 @@ from .crossing import LOST, LOWER, NONE, Field, first_crossing
 from .problem import ModeStrips, rates
 
 CONTACT, ADHESION, FREE = 0, 1, 2
-#: zones in a period: more than seven were never met but by points that find no end of them
-_MAX_ZONES = 12
+#: zones in a period: more than seven are met where a gap opens by no more than rounding, dozens next to saturated contact
+_MAX_ZONES = 60
 #: phase within which rounding decides whether a zone that begins where its limit is leads away from it
 _BRIEF = 1e-5
 
