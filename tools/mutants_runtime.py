@@ -51,6 +51,20 @@ MUTANTS = (
         "test_at_rest.py",
     ),
     Mutant(
+        "a march that begins in contact has none",
+        "orbit/modes/extremal.py",
+        "once & (np.isnan(near.edges[1]) == np.isnan(near.edges[2]))",
+        "once",
+        "test_modes_next_to_saturation.py",
+    ),
+    Mutant(
+        "what rounding hides next to complete contact is refused",
+        "orbit/modes/engine.py",
+        "<= 64 * ROUNDING * (1 + np.abs(s.D)",
+        "<= 0 * ROUNDING * (1 + np.abs(s.D)",
+        "test_modes_next_to_saturation.py",
+    ),
+    Mutant(
         "flat levels rub like those above",
         "flat_levels.py",
         "np.where(kept[:, None], v[above], 0.0)",
