@@ -64,3 +64,15 @@ def test_rubber_between_discrete_and_saturated_adhesion():
     )
     change = np.flatnonzero(strips.regime[1:] != strips.regime[:-1])
     assert change.size == 1 and (np.delete(np.diff(strips.p_mean), change) > 0).all()
+
+
+@pytest.mark.parametrize("apart", [1e-14, 1e-12, 1e-9])
+def test_times_that_differ_by_rounding_are_one(apart):
+    """Refused within 1e-10 of each other: rounding leaves nothing to tell the displacements of two such dashpots apart."""
+    moduli, times = [179.0, 0.354, 4.79, 187.0], [1.44e-8, 1.44e-8 * (1 + apart), 0.0819, 5.29]
+    adhesion, D = hystrip.Dugdale(p_0=1.74e-4, delta_0=7.14e-4), np.linspace(-8.88e-4, 185.83251566986925, 100)
+    p_mean = [
+        hystrip.solve_strip(material, adhesion, l=TURN, A=1.0, D=D, V=1.0, edge="constitutive", branch="loading").p_mean
+        for material in (hystrip.Prony(1.0, moduli, times), hystrip.Prony(1.0, [179.354, 4.79, 187.0], times[1:]))
+    ]
+    assert p_mean[0] == pytest.approx(p_mean[1], rel=1e-9, abs=1e-12)

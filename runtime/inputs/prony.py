@@ -30,7 +30,7 @@ class Prony:
 
     A pressure held at a constant displacement w relaxes as ``(K + sum_i K_i exp(-t/tau_i)) w``. One time is the
     standard linear solid with ``T_sigma = tau``, ``T_eps = tau (1 + K_1/K)``. Branches of modulus zero are dropped and
-    equal times merged, so that a series that is really one of fewer times is solved as that.
+    times that agree within 1.5e-8 merged, so that a series that is really one of fewer times is solved as that.
 
     Parameters
     ----------
@@ -219,12 +219,18 @@ def _common_order(times) -> list[int]:
 
 
 def _merged(weights, times) -> tuple[list, list]:
-    """Branches by ascending time, those of weight zero dropped, those of one time added up."""
-    found: dict[float, float] = {}
+    """Branches by ascending time, those of weight zero dropped, those of one time added up.
+
+    Times that differ by less than the root of a rounding are one, their weighted mean: what that changes is of the square."""
+    found: list[list[float]] = []
     for weight, time in sorted(zip(map(float, weights), map(float, times), strict=True), key=lambda branch: branch[1]):
-        if weight > 0:
-            found[time] = found.get(time, 0.0) + weight
-    return list(found.values()), list(found)
+        if weight > 0 and found and time - found[-1][1] <= np.sqrt(np.finfo(float).eps) * time:
+            last = found[-1]
+            last[0] += weight
+            last[1] += (time - last[1]) * (weight / last[0])
+        elif weight > 0:
+            found.append([weight, time])
+    return [weight for weight, _ in found], [time for _, time in found]
 
 
 def _interlaced(base: float, weights: np.ndarray, poles: np.ndarray) -> np.ndarray:
