@@ -32,7 +32,7 @@ class Result:
     pressure : nominal pressure, Pa; penetration : D of level 1, m (NaN below pull-off)
     contact_fraction : fraction of the nominal area in contact on every level: the real contact
     contact_by_level, adhesion_by_level : fractions of the nominal area in contact and in adhesion on each level, (levels, ...),
-        to ``rtol``; without adhesion no finer than to 1e-4 of themselves
+        within ``rtol`` of that area; without adhesion within the larger of ``rtol`` and 1e-4 of themselves
     pulled_off : the pressure lies below pull-off: no contact, mu = 0
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
