@@ -33,22 +33,21 @@ def _of_regime(regime: Row, slope: sp.Expr) -> list[Claim]:
     """That this is the slope for the zones of one regime, the last of which ends anywhere."""
     *zones, last = regime.zones
     loads, before = _loads(regime)
-    times = [alpha if zone.kind == CONTACT else beta for zone in regime.zones]
-    moved = sp.Mul(*(load / end * decay(zone.last - zone.first, time)
-                     for load, end, zone, time in zip(loads, before, zones, times, strict=False)))  # fmt: skip
-    numerator = loads[-1] * decay(last.last - last.first, beta) * moved
+    faded = [decay(zone.last - zone.first, alpha if zone.kind == CONTACT else beta) for zone in regime.zones]
+    *shifts, left_over = (load * fading for load, fading in zip(loads, faded, strict=True))
+    moved = sp.Mul(*(shift / end for shift, end in zip(shifts, before[:-1], strict=True)))
     steps = {F_step: loads[0] - before[-1], M_step: before[-2] - loads[-1]}
     width = sum((zone.last - zone.first for zone in zones if zone.kind == CONTACT), NOTHING)
     stated = slope.subs(a, width + b).subs(steps).subs({F: before[-1], M: -before[-2]})
     gap, onset, moves = written_out(last.after()), regime.edges[0], sp.Symbol("moves", real=True)
     missed = gap - last.exit
     left = sp.diff(gap, onset) + sp.diff(gap, last.first) * moves  # the next onset is a period after this one
-    driven = before[-1] - loads[-1] * decay(last.last - last.first, beta) * moves
+    driven = before[-1] - left_over * moves
     return [
         zero(f"{regime.sequence}: beta r' + r = F T' - F", beta * left + missed + written_out(driven), phases=regime.edges),
         zero(
             f"{regime.sequence}: F T' is the product over the zones",
-            written_out(numerator - before[-1] * stated),
+            written_out(left_over * moved - before[-1] * stated),
             phases=regime.edges,
         ),
     ]
@@ -70,7 +69,6 @@ def growth_of_the_slope(regime: Row) -> Derived:
     b_rate, a_rate, c_rate, F_rate, M_rate = (RATES[f"{name}'"] for name in "bacFM")
     first = L * b_rate / alpha - F_step * F_rate / (F * (F + F_step))
     last = L * a_rate / alpha + M_step * M_rate / (M * (M + M_step))
-    adhesion, _, trailing, _ = regime.zones
     loads, before = ([written_out(part) for part in parts] for parts in _loads(regime))
     known = {F: before[-1], F_step: loads[0] - before[-1], M: -before[2]}
     at_b, at_a = (written_out(stable.FORCING(edge, D, beta)) + p_0 for edge in (b, a))

@@ -128,7 +128,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("stability", "stability.py", "(release / (1 + beta) - released)", "(release / (1 + beta) + released)", "onset_slope_acaf"),
     m("stability", "stability.py", "spare - 2 * sp.sin(half)", "spare + 2 * sp.sin(half)", "onset_slope_acaf"),
     m("stability", "onset_map.py", "(1 + M_step / M)\n", "(1 - M_step / M)\n", "slope of the onset map"),
-    m("stability", "onset_map.py", "before[-1] - loads[-1] * decay", "before[-1] + loads[-1] * decay", "slope of the onset map"),
+    m("stability", "onset_map.py", "before[-1] - left_over", "before[-1] + left_over", "slope of the onset map"),
     m("stability", "onset_map.py", "ended = -M / at_a", "ended = M / at_a", "growth of the slope"),
     m("stability", "balance.py", "(D + p_0 - 2 + delta_0) * beta", "(D + p_0 - 1 + delta_0) * beta", "always engaged"),
     m("stability", "balance.py", "- alpha * begun.subs(s, s_1)", "+ alpha * begun.subs(s, s_1)", "pull and pressure"),
