@@ -130,7 +130,7 @@ def test_what_cannot_be_swept_is_refused(run, tmp_path, given, says):
     [
         (("velocity=1e-3", "velocity = 2e-3"), "velocity once, with all its values"),
         (("pressure=1e5, 2e5", "penetration=1e-6"), "one of the two"),
-        (("adhesion.p_0=1e3", "adhesion.gamma=[0, 1e-5]"), "one of the two"),
+        (("adhesion.p_0=1e3", "adhesion.gamma=[0, 1e-5]", "adhesion.delta_0=1e-8"), "two of the three"),
     ],
 )
 def test_no_swept_quantity_takes_the_place_of_another(run, tmp_path, given, says):

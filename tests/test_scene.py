@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import re
 import tomllib
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from scene_text import ONE_LEVEL
 
 from hystrip.errors import InputError
+from hystrip.example import SCENE
 from hystrip.scene import BUILTIN, load_scene, parse_scene
 from hystrip.scene.edit import with_levels, with_material
 from hystrip.scene.errors import SceneError, nearest
@@ -99,6 +101,26 @@ def test_fig6_is_the_paper_s():
 def test_no_adhesion_table_is_no_adhesion():
     text = ONE_LEVEL[: ONE_LEVEL.index("[adhesion]")] + ONE_LEVEL[ONE_LEVEL.index("[[levels]]") :]
     assert parse_scene(text).adhesion.gamma == 0
+
+
+def test_any_two_quantities_of_adhesion_give_the_third():
+    two = {"gamma": 2.5e-5, "p_0": 2500.0, "delta_0": 1e-8}
+    start, stop = ONE_LEVEL.index("gamma"), ONE_LEVEL.index("[[levels]]")
+    for left_out in two:
+        table = "".join(f"{key} = {value}\n" for key, value in two.items() if key != left_out)
+        adhesion = parse_scene(ONE_LEVEL[:start] + table + ONE_LEVEL[stop:]).adhesion
+        assert (adhesion.gamma, adhesion.p_0, adhesion.delta_0) == pytest.approx(tuple(two.values()), rel=1e-15)
+
+
+def test_what_starter_scenes_have_in_remarks_can_be_had():
+    table = re.search(r"(?m)^#   \[adhesion\]\n(#   .*\n)+", SCENE)[0]
+    adhesion = parse_scene(SCENE.replace(table, table.replace("#   ", ""))).adhesion
+    assert (adhesion.gamma, adhesion.p_0, adhesion.delta_0) == (0.05, 5e5, 0.05 / 5e5)
+    starter = load_scene("starter").text
+    loads = re.findall(r"(?m)^#   ((?:pressure|penetration) = .*)$", starter)
+    assert len(loads) == 3
+    for load in loads:
+        parse_scene(starter.replace("\npressure = 100\n", f"\n{load}\n"))
 
 
 def test_the_nearest_valid_name_is_offered():

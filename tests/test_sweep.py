@@ -130,6 +130,30 @@ def planned(points, text=SATURATED):
     return plan_of(values, "s", text, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
 
 
+@pytest.mark.parametrize(
+    ("own", "over", "kept"),
+    [
+        ({"gamma", "delta_0"}, {"p_0"}, {"p_0", "delta_0"}),
+        ({"p_0", "delta_0"}, {"gamma"}, {"gamma", "delta_0"}),
+        ({"gamma", "p_0"}, {"delta_0"}, {"gamma", "delta_0"}),
+        ({"gamma", "p_0"}, {"p_0"}, {"gamma", "p_0"}),
+        ({"gamma", "p_0"}, {"p_0", "delta_0"}, {"p_0", "delta_0"}),
+        ({"gamma", "delta_0"}, {"gamma", "p_0"}, {"gamma", "p_0"}),
+        (set(), {"gamma", "p_0"}, {"gamma", "p_0"}),
+    ],
+)
+def test_what_is_swept_of_adhesion_takes_the_place_of_the_third(own, over, kept):
+    """No third is left to contradict two that are swept; of a scene's own the stress goes first, the energy is kept."""
+    two = {"gamma": 2.5e-5, "p_0": 2500.0, "delta_0": 1e-8}
+    start, stop = SATURATED.index("[adhesion]"), SATURATED.index("[[levels]]")
+    table = "[adhesion]\n" + "".join(f"{key} = {two[key]}\n" for key in own) if own else ""
+    text = (SATURATED[:start] + table + SATURATED[stop:]).replace("batch = 7", "")
+    plan = plan_of(
+        validated(tomllib.loads(text)), "s", text, {f"adhesion.{key}": [two[key], 2 * two[key]] for key in over}, None, None
+    )
+    assert {key for key, each in plan.base["adhesion"].items() if each is not None} == kept
+
+
 @pytest.mark.parametrize("cost", [lambda n: 1e-4 * n, lambda n: 0.3 * n, lambda n: 0.1 * n**0.57, lambda n: 1.0 + 1e-3 * n])
 def test_batches_take_a_few_seconds_whatever_a_point_costs(cost):
     plan = planned(10_000)

@@ -121,9 +121,15 @@ def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Sce
 
 def refuse_ambiguous(values: dict[str, Any]) -> None:
     """Check that load and adhesion are each given in one way."""
-    _one_of(values, "", "pressure", "penetration")
+    given = {key: values[key] for key in ("pressure", "penetration") if values[key] is not None}
+    if len(given) != 1:
+        problem = "both pressure and penetration are given" if given else "neither pressure nor penetration is given"
+        raise SceneError("", given, "exactly one of pressure and penetration in the scene", problem)
     if values["adhesion"] is not None:
-        _one_of(values["adhesion"], "adhesion", "gamma", "p_0")
+        given = {key: each for key, each in values["adhesion"].items() if each is not None}
+        if len(given) == 3 or not {"gamma", "p_0"} & set(given):
+            problem = "all three are given" if len(given) == 3 else "neither gamma nor p_0 is given"
+            raise SceneError("adhesion", given, "two of the three in [adhesion]: gamma, p_0, delta_0", problem)
 
 
 def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
@@ -220,13 +226,4 @@ def _made(kind: str, arguments: dict[str, Any], path: str) -> Any:
     except InputError as error:
         # The library says "level.h", the file "levels[1].h".
         field = path + error.field[len(error.field.partition(".")[0]) :]
-        raise SceneError(field, error.value, error.allowed) from None
-
-
-def _one_of(values: dict[str, Any], path: str, first: str, second: str) -> None:
-    given = [name for name in (first, second) if values[name] is not None]
-    if len(given) != 1:
-        place = f"[{path}]" if path else "the scene"
-        problem = f"both {first} and {second} are given" if given else f"neither {first} nor {second} is given"
-        value = {name: values[name] for name in given}
-        raise SceneError(path, value, f"exactly one of {first} and {second} in {place}", problem)
+        raise SceneError(field, error.value, error.allowed, "" if error.value is not None else "missing") from None

@@ -139,11 +139,11 @@ MATERIAL_KEYS = {
 
 
 class Adhesion(Struct, forbid_unknown_fields=True, kw_only=True):
-    """Dugdale adhesion: a constant attraction up to a range. Either its energy or its stress is given."""
+    """Dugdale adhesion: a constant attraction up to a range. Two of the three are given."""
 
     gamma: Annotated[Values | None, _swept_meta("energy of adhesion gamma = p_0 delta_0, >= 0", "J/m^2")] = None
     p_0: Annotated[Values | None, _swept_meta("adhesive stress, >= 0", "Pa")] = None
-    delta_0: Annotated[Values, _swept_meta("range of adhesion, > 0", "m")]
+    delta_0: Annotated[Values | None, _swept_meta("range of adhesion, > 0", "m")] = None
 
 
 class Level(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -210,7 +210,7 @@ def json_schema() -> dict[str, Any]:
     schema = msgspec.json.schema(SceneFile)
     parts = schema["$defs"]
     parts["SceneFile"]["oneOf"] = [{"required": ["pressure"]}, {"required": ["penetration"]}]
-    parts["Adhesion"]["oneOf"] = [{"required": ["gamma"]}, {"required": ["p_0"]}]
+    parts["Adhesion"] |= {"anyOf": [{"required": ["gamma"]}, {"required": ["p_0"]}], "maxProperties": 2}
     _without_null(schema)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "hystrip scene", **schema}
 

@@ -144,11 +144,11 @@ def _last(key: str) -> str:
 def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], combine: str | None, batch: int | None) -> Plan:
     """The sweep of a validated scene, with the values in ``over`` (dotted key -> values in SI) in place of the scene's."""
     values = copy.deepcopy(values)
-    for pair in (_LOADS, ("adhesion.gamma", "adhesion.p_0")):
-        if all(key in over for key in pair):
-            raise InputError("over", [*pair], "one of the two: each takes the place of the other")
+    if all(key in over for key in _LOADS):
+        raise InputError("over", [*_LOADS], "one of the two: each takes the place of the other")
     for key, given in over.items():
         _put(values, key, given)
+    _give_way(values["adhesion"] or {}, over)
     refuse_ambiguous(values)
     settings = values["sweep"] or {"combine": "grid", "batch": None}
     combine = settings["combine"] if combine is None else combine
@@ -208,15 +208,20 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
         raise InputError(key, given, "a number or a one-dimensional list of numbers, at least one")
     if key in _LOADS:
         values["pressure"] = values["penetration"] = None
-    if key.startswith("adhesion."):
-        values["adhesion"] = values["adhesion"] or {"gamma": None, "p_0": None, "delta_0": np.array(0.0)}
-        if key != "adhesion.delta_0":
-            values["adhesion"]["gamma"] = values["adhesion"]["p_0"] = None
+    if key.startswith("adhesion.") and values["adhesion"] is None:
+        values["adhesion"] = {"gamma": None, "p_0": None, "delta_0": None}
     *path, last = (int(step) if step.isdigit() else step for step in re.findall(r"\w+", key))
     place: Any = values
     for step in path:
         place = place[step]
     place[last] = array
+
+
+def _give_way(adhesion: dict[str, Any], over: dict[str, Any]) -> None:
+    """Of all three quantities, one too many, leave out one of the scene's own: its stress, else its energy, else its range."""
+    own = [key for key in ("p_0", "gamma", "delta_0") if f"adhesion.{key}" not in over]
+    if own and all(each is not None for each in adhesion.values()):
+        adhesion[own[0]] = None
 
 
 def keys_of(values: dict[str, Any]) -> list[str]:
