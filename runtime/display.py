@@ -32,6 +32,11 @@ def as_html(shown: Shown) -> str:
     return f"<div><strong>{html.escape(title)}</strong><table><tbody>{body}</tbody></table></div>"
 
 
+def model_name(material: Any) -> str:
+    """What the model of a material is called: of a generated one by the name that its file gives it."""
+    return repr(material).partition("(")[0]
+
+
 def of_result(result: Result) -> Shown:
     """A :class:`hystrip.Result`."""
     size, counts = np.size(result.mu), result.counts
@@ -43,7 +48,7 @@ def of_result(result: Result) -> Shown:
         ("pressure", span(result.pressure, "Pa")),
         ("velocity", span(result.velocity, "m/s")),
         ("real contact", percent(result.contact_fraction)),
-        ("asked", f"{result.branch}, {result.edge}, rtol {result.rtol:g}{panels}; {type(result.material).__name__}"),
+        ("asked", f"{result.branch}, {result.edge}, rtol {result.rtol:g}{panels}; {model_name(result.material)}"),
         ("work", f"{work}, {_count(closed, 'point')} in closed form, {off} below pull-off"),
     ]
 
@@ -59,7 +64,7 @@ def of_level(solution: LevelSolution) -> Shown:
         ("contact", percent(solution.contact_fraction) + _missed(solution)),
         ("penetration", span(solution.D, "m")),
         ("velocity", span(asked.velocity, "m/s")),
-        ("asked", f"{asked.branch}, {asked.edge}, rtol {asked.rtol:g}{panels}; {type(asked.material).__name__}"),
+        ("asked", f"{asked.branch}, {asked.edge}, rtol {asked.rtol:g}{panels}; {model_name(asked.material)}"),
         ("work", f"{_count(solution.strips, 'strip')}, {_count(off, 'point')} below pull-off"),
     ]
 

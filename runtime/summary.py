@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from .display import percent, span
+from .display import model_name, percent, span
 from .inputs.half_space import HalfSpace
 from .inputs.materials import parameters
 from .orbit.foundation import Foundation, foundation_of
@@ -46,7 +46,7 @@ def _inputs(result: Any) -> list[str]:
     at = "" if result.temperature is None else f", at {result.temperature:.5g} K"
     panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [
-        f"material   {type(m).__name__}: {_parameters(m)}" + at,
+        f"material   {model_name(m)}: {_parameters(m)}" + at,
         f"adhesion   {sticky}",
         f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
         f"points     {np.size(result.mu)}: pressure {span(result.pressure, 'Pa')}, velocity {span(result.velocity, 'm/s')}",

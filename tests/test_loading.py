@@ -57,6 +57,7 @@ def test_a_loaded_solver_solves_as_the_package_does(folder):
         assert np.array_equal(ours.p_mean, theirs.p_mean) and np.array_equal(ours.tau_mean, theirs.tau_mean)
         level = hystrip.solve_level(material, ADHESION, hystrip.Level(1e-5, 1e-6), V=1e-3, D=3e-7, edge="constitutive", rtol=1e-3)
         assert np.isfinite(level.p_mean)
+    assert "rtol 0.001; generalised" in str(level)
 
 
 def test_parameters_of_a_loaded_model_are_checked(folder):
