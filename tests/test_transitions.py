@@ -6,7 +6,7 @@ import surfaces
 
 import hystrip
 from hystrip.level.averages import level_means
-from hystrip.level.breaks import IsolatedRegime, Zones, between_breaks, first_contact, islands, locate_vanishing, scan
+from hystrip.level.breaks import Islands, Zones, between_breaks, first_contact, islands, locate_vanishing, scan
 from hystrip.level.interpolation import Intervals, interpolate
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.regimes import CODE
@@ -82,13 +82,13 @@ def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowe
 def test_an_island_vanishes_where_its_strips_do():
     scene = _random(0)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
-    seen = IsolatedRegime(0, CODE["f"], 2.5728, 2.6259, 1.4170062189113333e-07, 1.4203712327079623e-07, weight=1e3)
-    (D,) = locate_vanishing(columns, [seen], np.zeros(1, int))
-    across = np.linspace(seen.low, seen.high, 5001)
+    seen = [np.array([v]) for v in (2.5728, 2.6259, 0, CODE["f"], 1.4170062189113333e-07, 1.4203712327079623e-07, 1e3)]
+    (D,) = locate_vanishing(columns, Islands(*seen), np.zeros(1, int))
+    across = np.linspace(2.5728, 2.6259, 5001)
     for side, there in ((-1e-6, True), (1e-6, False)):
         at = columns.at(np.zeros(across.size, int), np.full(across.size, D * (1 + side)))
         codes = at.codes(np.arange(across.size), across)
-        assert (codes == seen.code).any() == there
+        assert (codes == CODE["f"]).any() == there
 
 
 def test_a_zone_whose_means_do_not_tell_is_no_island():
@@ -105,8 +105,8 @@ def test_nested_islands_vanish_one_by_one():
     is an island of its own, as wide as all inside it."""
     nested = _zones((2, 0.0, 1.0, 0.0), (5, 1.0, 1.2, 3.0), (7, 1.2, 1.3, 9.0), (5, 1.3, 1.5, 3.0), (2, 1.5, np.pi, 0.0))
     inner, plain = nested.code[[0, 1, 4]], _zones((2, 0.0, np.pi, 0.0))
-    found = {each.code: each for each in islands(0, np.arange(2.0), [nested, plain], np.full(1, 1e-2))}
-    assert {code: (each.low, each.high) for code, each in found.items()} == {5: (1.0, 1.5), 7: (1.2, 1.3)}
+    found = Islands.joined(islands(0, np.arange(2.0), [nested, plain], np.full(1, 1e-2)))
+    assert [*zip(found.code, found.low, found.high, strict=True)] == [(5, 1.0, 1.5), (7, 1.2, 1.3)]
     one = Zones(inner, *(np.delete(v, [2, 3], axis=0) for v in (nested.low, nested.high, nested.first, nested.last, nested.mean)))
     assert [each.code for each in islands(0, np.arange(2.0), [nested, one], np.full(1, 1e-2))] == [7]
     # one that hardly tells beside another is left to what comes of the parts

@@ -35,7 +35,7 @@ _NEXT, _CLOSEST = 0.3, 1e-6
 #: how far below a penetration, in heights, it is looked for islands, as roughly
 _BELOW, _ROUGH = (0.003, 0.02, 0.1), 1e-2
 #: smallest error claimed for a panel, as a share of its tolerance: a layer may be too thin to show at its nodes
-_LEAST = 1e-5
+_LEAST = 1e-6
 
 
 @dataclass

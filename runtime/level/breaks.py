@@ -8,14 +8,14 @@ y that grows with the distance in D or its square root, and the level's means wi
 a level below, islands are nested: around a minimum of the peak pressure every break of its law is passed down and up again.
 """
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from ..inputs.adhesion import Dugdale
 from ..numerics.rounding import EPS
-from ..orbit.batch import Batch
+from ..orbit.batch import Batch, Ranges
 from .changes import Changes, locate_changes
 from .regime_map import by_equation, hides_another, straight, theta_of
 from .strips import LevelBatch
@@ -121,23 +121,21 @@ def zones_along_y(columns: int, state, code, low, high, first, last, total) -> l
 
 
 @dataclass
-class IsolatedRegime:
-    """Strips with ``code`` between the thetas ``low`` and ``high`` at penetration ``present``, none of them at ``absent``.
-    ``weight``: what it adds to the means over their goal."""
+class Islands(Ranges):
+    """Regimes along y, (n,): strips of a ``column`` with ``code`` between the thetas ``low`` and ``high`` at penetration
+    ``present``, none of them at ``absent``. ``weight``: what that adds to the means over their goal."""
 
-    column: int
-    code: int
-    low: float
-    high: float
-    present: float
-    absent: float
-    weight: float
+    column: np.ndarray
+    code: np.ndarray
+    present: np.ndarray
+    absent: np.ndarray
+    weight: np.ndarray
 
 
-def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> list[IsolatedRegime]:
+def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> list[Islands]:
     """Regimes along y that appear or vanish between two neighbouring nodes ``D``, of which ``zones`` are known: those of the two
     nodes where one moves the means most, beside the ``goal`` (q,) of their errors. Islands may be nested, and vanish in turn."""
-    most: list[IsolatedRegime] = []
+    most: list[Islands] = []
     for i in range(D.size - 1):
         one, two = zones[i], zones[i + 1]
         if np.array_equal(one.code, two.code):
@@ -153,32 +151,32 @@ def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) ->
             low, high = one.low[k[0]], one.high[k[-1]]
             weight = max(float(((high - low) / np.pi * one.standing_out(j) / goal).max()) for j in k)
             if weight > _LEFT:
-                found.append(IsolatedRegime(column, int(one.code[k[0]]), float(low), float(high), *ends, weight))
-        most = max(most, found, key=lambda some: max((each.weight for each in some), default=0.0))
+                found.append(Islands(*(np.array([v]) for v in (low, high, column, one.code[k[0]], *ends, weight))))
+        most = max(most, found, key=lambda some: max((each.weight[0] for each in some), default=0.0))
     return most
 
 
-def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
-    """Penetrations at which the islands have shrunk so far that what is left does not tell; NaN: one is not absent at all.
+def locate_vanishing(columns: LevelBatch, some: Islands, strips: np.ndarray) -> np.ndarray:
+    """Penetrations (n,) at which islands have shrunk so far that what is left does not tell; NaN: one is not absent at all.
 
     Where a curve turns, if an island ends there; else where it is lost when followed. ``strips`` (per column) counts the work."""
-    told = [np.array(v) for v in zip(*map(astuple, islands), strict=True)]
-    out = _vanish_at_turns(columns, *told[:-1], strips)
+    out = _vanish_at_turns(columns, some, strips)
     left = np.flatnonzero(np.isnan(out))
     if left.size:
-        out[left] = _followed(columns, *(v[left] for v in told), strips)
+        out[left] = _followed(columns, some.take(left), strips)
     return out
 
 
-def _followed(columns: LevelBatch, column, code, low, high, present, absent, weight, strips: np.ndarray) -> np.ndarray:
+def _followed(columns: LevelBatch, whole: Islands, strips: np.ndarray) -> np.ndarray:
     """``locate_vanishing`` by ever smaller grids of strips across an island and along the way to its end, that move with it; the
     curves around are located, and a turn of one of them that is found so is the end."""
-    number, out, whole = np.arange(column.size), np.full(column.size, np.nan), (column, code, absent)
+    number, out, here, low, high = np.arange(whole.size), np.full(whole.size, np.nan), whole, whole.low, whole.high
     # ends and penetrations of the islands where they are looked at last, and where they were close to their end first
     tips, wider = np.full((2, 3, out.size), np.nan)
-    density, start, stop, drift = weight / (high - low), *np.array([[0.0], [1.0], [0.0]]).repeat(number.size, axis=1)
+    density, start, stop, drift = whole.weight / whole.width, *np.array([[0.0], [1.0], [0.0]]).repeat(number.size, axis=1)
     for _ in range(_ROUNDS):
-        tip, far = np.array((low, high, present + (absent - present) * start)), (high - low > _CLOSE) | np.isnan(wider[0, number])
+        present, way = here.present, here.absent - here.present
+        tip, far = np.array((low, high, present + way * start)), (high - low > _CLOSE) | np.isnan(wider[0, number])
         tips[:, number], wider[:, number[far]] = tip, tip[:, far]
         across = (np.arange(_ACROSS) + 0.5) / _ACROSS
         step = (high - low) / _ACROSS
@@ -186,11 +184,11 @@ def _followed(columns: LevelBatch, column, code, low, high, present, absent, wei
         # an island may be far narrower than it moves
         moved = drift[:, None] * (share - start[:, None])
         theta = np.clip((low[:, None] + (high - low)[:, None] * across)[:, None] + moved[:, :, None], 0.0, np.pi)
-        D = (present[:, None] + (absent - present)[:, None] * share)[:, :, None].repeat(_ACROSS, axis=2)
-        which = np.repeat(column, _ALONG * _ACROSS)
+        D = (present[:, None] + way[:, None] * share)[:, :, None].repeat(_ACROSS, axis=2)
+        which = np.repeat(here.column, _ALONG * _ACROSS)
         np.add.at(strips, which, 1)
         codes = columns.at(which, D.ravel()).codes(np.arange(which.size), theta.ravel())
-        has = codes.reshape(D.shape) == code[:, None, None]
+        has = codes.reshape(D.shape) == here.code[:, None, None]
         # the last along the way that any strip has it, and from where to where there
         row = np.where(has.any(axis=2), np.arange(_ALONG), 0).max(axis=1)
         each = np.arange(number.size)
@@ -202,21 +200,21 @@ def _followed(columns: LevelBatch, column, code, low, high, present, absent, wei
         further = np.minimum(row + 2, _ALONG - 1)
         further = np.where(row == _ALONG - 1, np.minimum(2 * stop - start, 1.0), share[each, further])
         start, stop = share[each, row], further
-        out[number] = np.where(keeps, np.nan, present + (absent - present) * 0.5 * (start + stop))
+        out[number] = np.where(keeps, np.nan, present + way * 0.5 * (start + stop))
         done = keeps | (density * (high - low) <= _LEFT)
-        done |= np.abs((absent - present) * (stop - start)) <= 16 * EPS * np.maximum(np.abs(absent), columns.level.h)
+        done |= np.abs(way * (stop - start)) <= 16 * EPS * np.maximum(np.abs(here.absent), columns.level.h)
         if done.all():
             break
-        number, column, code, present, absent, low, high, density, start, stop, drift = (
-            v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop, drift)
+        number, here, low, high, density, start, stop, drift = (
+            v[~done] for v in (number, here, low, high, density, start, stop, drift)
         )
     # nodes next to the end are expected to cross the curves there; and one of them may turn
     ended = np.flatnonzero(~np.isnan(out))
-    column, code, absent = (v[ended] for v in whole)
+    whole = whole.take(ended)
     for at in (wider, tips):
-        _locate_around(columns, column, *at[:, ended], strips)
+        _locate_around(columns, whole.column, *at[:, ended], strips)
     low, high, present = wider[:, ended]
-    turns = _vanish_at_turns(columns, column, code, low, high, present, absent, strips)
+    turns = _vanish_at_turns(columns, replace(whole, low=low, high=high, present=present), strips)
     out[ended] = np.where(np.isnan(turns), out[ended], turns)
     return out
 
@@ -233,19 +231,19 @@ def _locate_around(columns: LevelBatch, column, low, high, D, strips: np.ndarray
     by_equation(at, changes, A, np.repeat(at.D - columns.level.h, 2).reshape(-1, 2), "A")
 
 
-def _vanish_at_turns(columns: LevelBatch, column, code, low, high, present, absent, strips: np.ndarray) -> np.ndarray:
-    """Penetrations at which islands (see ``IsolatedRegime``), (n,), end at the turn of a curve, the one nearest to where they are
-    absent; NaN where no turn has them on the one side and not on the other."""
-    turns, h, out = columns.crossings.turned(columns), columns.level.h, np.full(column.size, np.nan)
-    D, theta, away = turns.E + h, theta_of(columns, turns.A), absent - present
-    share = (D - present[:, None]) / away[:, None]
+def _vanish_at_turns(columns: LevelBatch, some: Islands, strips: np.ndarray) -> np.ndarray:
+    """Penetrations at which islands (n,) end at the turn of a curve, the one nearest to where they are absent; NaN where no turn
+    has them on the one side and not on the other."""
+    turns, column, out = columns.crossings.turned(columns), some.column, np.full(some.size, np.nan)
+    D, theta, away = turns.E + columns.level.h, theta_of(columns, turns.A), some.absent - some.present
+    share = (D - some.present[:, None]) / away[:, None]
     inside = (columns.V[column, None] == turns.velocity) & (share > 0) & (share < 1)
-    island, turn = np.nonzero(inside & (theta > low[:, None]) & (theta < high[:, None]))
+    island, turn = np.nonzero(inside & (theta > some.low[:, None]) & (theta < some.high[:, None]))
     if island.size:
         beside = D[turn] + _ASIDE * away[island] * np.array([[-1], [1]])
         np.add.at(strips, column[island], 2)
         at = columns.at(np.tile(column[island], 2), beside.ravel())
-        has = at.codes(np.arange(at.size), np.tile(theta[turn], 2)).reshape(2, -1) == code[island]
+        has = at.codes(np.arange(at.size), np.tile(theta[turn], 2)).reshape(2, -1) == some.code[island]
         ends = np.flatnonzero(has[0] & ~has[1])
         ends = ends[np.argsort(share[island[ends], turn[ends]])]
         out[island[ends]] = D[turn[ends]]

@@ -13,7 +13,7 @@ from ..numerics.rounding import EPS
 from ..orbit.batch import Ranges
 from .averages import level_means
 from .branches import Errors, Piece, share_of
-from .breaks import islands, locate_vanishing
+from .breaks import Islands, islands, locate_vanishing
 from .error_budget import ErrorBudget
 from .look import before_least
 from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
@@ -172,7 +172,7 @@ class _Work:
         """The intervals divided where something appears or vanishes between two nodes, away from the crest, or in halves."""
         intervals, zones, nodes = stage.parts, stage.known[2], stage.parts.at(interior_nodes(stage.n))
         seen = [(k, each) for k, D in enumerate(nodes) for each in islands(int(intervals.column[k]), D, zones[k], goal[k])]
-        found = locate_vanishing(self.columns, [island for _, island in seen], self.strips) if seen else np.empty(0)
+        found = locate_vanishing(self.columns, Islands.joined([each for _, each in seen]), self.strips) if seen else np.empty(0)
         parts = []
         for k in range(intervals.size):
             rest, breaks = intervals.take([k]), [D for (i, _), D in zip(seen, found, strict=True) if i == k]
