@@ -49,7 +49,7 @@ def command(
     with its own replaced. A master curve of `hystrip master` brings its temperature shift along.
     """
     from ..dma import FitWarning, fit_prony, read_dma
-    from ..dma.output import SHEAR, material_tables, rows, shift_table
+    from ..dma.output import SHEAR, rows
     from ..dma.read import read_shift
     from ..errors import InputError, printable
     from ..extras import require
@@ -58,9 +58,6 @@ def command(
     from ..inputs.fitted import POOR
     from ..inputs.half_space import HalfSpace
     from ..origins import outputs_from, refuse_other_origin
-    from ..scene.edit import with_material, with_settings
-    from ..scene.errors import located
-    from ..scene.load import parse_toml, scene_text
     from ..tables import about_version, write_csv
     from .quantities import quantity
     from .scene_options import left_to_the_user, settings
@@ -82,18 +79,7 @@ def command(
             number("length", over, "m", 0, strict=True)
         measured, shift = read_dma(data, temperature_set, decimal, shear), read_shift(data)
     refuse_unwritable(out, "--out")
-    text = ""
-    if writes_scene:  # what is wrong with it is said before the work
-        stands_in: dict[str, Any] = {"material": {"kind": "half-space", "E": 1.0, "nu": 0.5, "moduli": [1.0], "times": [1.0]}}
-        if shift is not None:
-            stands_in["material.shift"] = shift_table(shift)
-        with located(scene):
-            text = with_settings(scene_text(scene)[0], given)
-            temperature = parse_toml(text).get("temperature")
-            if shift is None and temperature is not None:
-                allowed = f"none: {source} states no shift with temperature, which a master curve of `hystrip master` does"
-                raise InputError("temperature", temperature, allowed)
-            with_material(text, stands_in)
+    text = _checked(scene, given, shift, source) if writes_scene else ""
     names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)
     about = [*about_version(), f"data: {source}"]
@@ -102,12 +88,7 @@ def command(
         measured = measured.between(low, high)
         series = fit_prony(measured, accuracy=accuracy, per_decade=per_decade, terms=terms)
     if writes_scene:
-        material = series.half_space(nu, shift) if nu is not None else series.material(over, shift)
-        # the other closure does not determine the edges of a material of several times
-        edge = {"edge": "constitutive"} if len(series.times) > 1 else {}
-        tables, comment = material_tables(material, series, source, over)
-        with located(scene):
-            text = with_material(with_settings(text, edge), tables, comment)
+        text = _with_fitted(text, scene, series, shift, nu, over, source)
     with outputs_from(data, out, names) as files:
         write_csv(files.path(names[0]), rows(series, measured), about)
         if writes_scene:
@@ -126,3 +107,38 @@ def command(
     for note in left_to_the_user(scene if writes_scene else "", "material"):
         say(note)
     say_written(out / name for name in names)
+
+
+def _checked(scene: str, given: dict[str, Any], shift: Any, source: str) -> str:
+    """The text of ``scene`` with the settings ``given``; what is wrong with it, with a material of this kind, is said here."""
+    from ..dma.output import shift_table
+    from ..errors import InputError
+    from ..scene.edit import with_material, with_settings
+    from ..scene.errors import located
+    from ..scene.load import parse_toml, scene_text
+
+    stands_in: dict[str, Any] = {"material": {"kind": "half-space", "E": 1.0, "nu": 0.5, "moduli": [1.0], "times": [1.0]}}
+    if shift is not None:
+        stands_in["material.shift"] = shift_table(shift)
+    with located(scene):
+        text = with_settings(scene_text(scene)[0], given)
+        temperature = parse_toml(text).get("temperature")
+        if shift is None and temperature is not None:
+            allowed = f"none: {source} states no shift with temperature, which a master curve of `hystrip master` does"
+            raise InputError("temperature", temperature, allowed)
+        with_material(text, stands_in)
+    return text
+
+
+def _with_fitted(text: str, scene: str, series: Any, shift: Any, nu: float | None, length: Any, source: str) -> str:
+    """The ``text`` of ``scene`` with the material of the fitted ``series``: half-space of ``nu``, or moduli over a ``length``."""
+    from ..dma.output import material_tables
+    from ..scene.edit import with_material, with_settings
+    from ..scene.errors import located
+
+    material = series.half_space(nu, shift) if nu is not None else series.material(length, shift)
+    # the other closure does not determine the edges of a material of several times
+    edge = {"edge": "constitutive"} if len(series.times) > 1 else {}
+    tables, comment = material_tables(material, series, source, length)
+    with located(scene):
+        return with_material(with_settings(text, edge), tables, comment)
