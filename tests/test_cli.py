@@ -173,6 +173,18 @@ def test_several_pressures_have_a_row_each_zero_an_empty_mu(run, tmp_path):
     assert np.isfinite([float(row["tau [Pa]"]) for row in table]).all()
 
 
+def test_the_table_has_units_in_its_headings_and_four_digits_of_every_number(run, tmp_path):
+    (tmp_path / "two.toml").write_text(SCENE.replace("pressure = 5e6", "penetration = [1e-4, 2e-4]"))
+    _, out, _ = run("solve", "two.toml", "--no-plot")
+    cells = [[cell.strip(" ┃│") for cell in line.replace("┃", "│").split("│")[1:-1]] for line in out.splitlines()]
+    heads, *table = [row for row in cells if row]
+    assert heads[:3] == ["penetration [m]", "V [m/s]", "mu"] and len(table) == 4
+    for row, given in zip(table, rows(tmp_path / "hystrip-out/two.csv"), strict=True):
+        assert float(row[2]) == pytest.approx(float(given["mu"]), rel=5e-4) and len(row[2].lstrip("0.")) == 4
+    (tmp_path / "one.toml").write_text(SCENE.replace("pressure = 5e6", "penetration = 5e-3"))
+    assert "\npenetration 0.005 m, edge continuous, branch unloading\n" in run("solve", "one.toml", "--no-plot")[1]
+
+
 def test_init_says_commands_that_a_shell_takes(run):
     assert "try: hystrip solve 'my scene.toml'" in run("init", "my scene.toml")[1]
     assert "now: cd 'my folder'\n" in run("init", "--example", "rubber", "my folder")[1]

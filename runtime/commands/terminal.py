@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..scene import Scene
+from ..tables import LOAD_UNITS
 
 
 def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
@@ -17,13 +18,13 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
 
     load_name, load = scene.load
     levels = range(1, len(scene.levels) + 1)
-    # the title is text, whatever stands in brackets in it
+    # title and headings are text, whatever stands in brackets in them, as [m/s] does
     table = Table(title=Text(printable(scene.title or scene.name)), title_justify="left", title_style="bold")
     load_column = next(iter(columns))
     if load.ndim:
-        table.add_column(load_column, justify="right", overflow="fold")
+        table.add_column(Text(load_column), justify="right", overflow="fold")
     for heading in ("V [m/s]", "mu", *(f"level {level}" for level in levels), "error of mu"):
-        table.add_column(heading, justify="right", overflow="fold")  # a number cut short would be another number
+        table.add_column(Text(heading), justify="right", overflow="fold")  # a number cut short would be another number
     for row in range(len(columns["mu"])):
         at = {name: values[row] for name, values in columns.items()}
         cells = [f"{at[load_column]:.4g}"] if load.ndim else []
@@ -33,13 +34,14 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
     # Wide enough for every column also where the output is no terminal: a file has no width to fit into.
     console = Console()
     console.print(table) if console.is_terminal else Console(width=max(100, 24 * (3 + len(scene.levels)))).print(table)
-    if not load.ndim:
-        unit = "Pa" if load_name == "pressure" else "m"
-        print(f"nominal {load_name} {float(load):g} {unit}, edge {scene.edge}, branch {scene.branch}")
+    said = [] if load.ndim else [f"{load_name} {float(load):g} {LOAD_UNITS[load_name]}"]
+    said += [] if scene.temperature is None else [f"temperature {scene.temperature:g} K"]
+    print(", ".join([*said, f"edge {scene.edge}", f"branch {scene.branch}"]))
 
 
 def _number(value: Any) -> str:
-    return "-" if np.isnan(value) else f"{value:.4f}" if 1e-3 <= abs(value) < 1e4 or value == 0 else f"{value:.3e}"
+    """With four digits that count, small numbers too."""
+    return "-" if np.isnan(value) else f"{value:#.4g}".rstrip(".") if value else "0"
 
 
 def _error(value: Any) -> str:
