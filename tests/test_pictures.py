@@ -314,6 +314,27 @@ def test_points_of_a_list_failed_pulled_off_or_not_converged_are_drawn_as_such(t
     assert marks.get_xdata() == pytest.approx([5e9]) and marks.get_ydata() == line.get_ydata()[3]
 
 
+def test_a_sweep_draws_no_line_through_the_pole_of_mu_and_says_why_there_is_none(tmp_path):
+    source = scene_of(tmp_path)
+    over = {
+        "pressure": [-200, -100, 100, 200],
+        "velocity": 1e-2,
+        "levels[0].h": 1e-7,
+        "adhesion.gamma": 2.5e-5,
+        "adhesion.delta_0": 1e-8,
+    }
+    done = hystrip.sweep(source, over=over, out=tmp_path / "a")
+    line = done.plot().axes[0].lines[0]
+    assert not done.columns["pulled off"].any() and np.isnan(line.get_ydata()).tolist() == [False, False, True, False, False]
+    said = [
+        text.get_text()
+        for text in hystrip.sweep(source, over=over | {"pressure": [0, 0]}, out=tmp_path / "b").plot().axes[0].texts
+    ]
+    assert said == [r"$\mu$ is not defined at zero pressure"]
+    none = hystrip.sweep(source, over={"material.T_sigma": [2.0, 3.0], "pressure": [1.0, 2.0]}, out=tmp_path / "c").plot()
+    assert [text.get_text() for panel in none.axes for text in panel.texts] == 2 * ["no point could be solved"]
+
+
 def test_stresses_along_a_strip_are_those_of_the_levels():
     result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=100.0, velocity=5e-3, rtol=1e-3)
     cell = cell_of(result, 0, 1)

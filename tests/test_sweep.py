@@ -74,6 +74,12 @@ def test_grid_is_every_combination(scene, tmp_path):
         assert np.array_equal(again.mu, data.mu)
 
 
+def test_the_table_says_what_was_not_swept(scene, tmp_path):
+    lines = hystrip.sweep(scene, out=tmp_path).path.read_text().splitlines()
+    (fixed,) = (line for line in lines if line.startswith("# fixed: "))
+    assert "material.T_eps = 0.01, " in fixed and "levels[0].l = 1e-05, " in fixed and "material.K" not in fixed
+
+
 def test_list_takes_values_together(scene, tmp_path):
     over = {
         "levels[0].h": [1e-6, 5e-7, 2e-7],

@@ -25,8 +25,8 @@ _LINES = 6
 @styled
 def over_swept(sweep: Sweep) -> Figure:
     """Draw a :class:`hystrip.Sweep` over the swept quantity of most values, the last of them: a line for each of at most six
-    combinations of the others (of more the legend says so). Lines end where points failed or are pulled off; circles mark
-    points that did not converge.
+    combinations of the others (of more the legend says so). Lines end where points failed or are pulled off, those of mu at
+    p = 0, where it has a pole; circles mark points that did not converge.
     """
     axes, grid = sweep.plan.axes, sweep.plan.combine == "grid"
     at = max(range(len(axes)), key=lambda n: (np.unique(axes[n].values).size, n))
@@ -45,14 +45,22 @@ def over_swept(sweep: Sweep) -> Figure:
             y = np.where(off[row], np.nan, rows(sweep.columns[column])[row])
             said = ", ".join(_said(axes[n], rows(coordinates[:, n])[row, 0]) for n in others)
             style = {"color": OKABE_ITO[number], "linestyle": DASHES[number % len(DASHES)] if number else "-"}
-            panel.plot(x[order], y[order], marker=".", markersize=min(3.0, 90 / count), label=said, **style)
+            p = pressure[row][order]
+            at_pole = np.flatnonzero(p[1:] * p[:-1] < 0) + 1 if column == "mu" else []
+            line = (np.insert(each[order], at_pole, np.nan) for each in (x, y))
+            panel.plot(*line, marker=".", markersize=min(3.0, 90 / count), label=said, **style)
             doubtful = ~sure[row] & np.isfinite(y)
             panel.plot(x[doubtful], y[doubtful], "o", markersize=5, markerfacecolor="none", color="black", zorder=4)
         if column == "mu" and (pressure <= 0).any():
             known = np.isfinite(pressure)
             panel.set_ylim(*limits_apart_from_the_pole(pressure[known], [rows(sweep.columns[column])[known]]))
-        if off.all():
-            panel.text(0.5, 0.55, "pulled off: no contact", ha="center", va="bottom", transform=panel.transAxes)
+        reasons = {
+            "pulled off: no contact": off.all(),
+            "no point could be solved": len(sweep.failed) == sweep.plan.size,
+            "$\\mu$ is not defined at zero pressure": column == "mu" and not pressure.any(),
+        }
+        for said in [text for text, holds in reasons.items() if holds][:1]:
+            panel.text(0.5, 0.55, said, ha="center", va="bottom", transform=panel.transAxes)
         panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panels[0].set_ylabel(r"friction coefficient $\mu$")
     panels[1].set_ylabel("contact fraction")

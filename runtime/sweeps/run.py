@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import ConvergenceWarning, HystripError, InputError
 from ..files import path_of, refuse_unwritable
 from ..origins import outputs_from, refuse_other_origin
+from ..scene.load import quantities
 from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
@@ -272,10 +273,12 @@ def _solved(batch: Any) -> Batch:
 
 
 def _about(plan: Plan) -> list[str]:
-    """Lines above the table: version, units, scene, tolerance."""
-    base, swept = plan.base, ", ".join(axis.key for axis in plan.axes) or "nothing"
+    """Lines above the table: version, units, scene, inputs that are not swept, tolerance."""
+    base, swept = plan.base, [axis.key for axis in plan.axes]
+    fixed = ", ".join(f"{key} = {float(each)!r}" for key, each in quantities(base) if key not in swept)
     asked = f"edge {base['edge']}, branch {base['branch']}, rtol {base['rtol']:g}"
-    return [*about_version(), f"scene: {base['title'] or plan.name}; over {swept}", asked]
+    scene = f"scene: {base['title'] or plan.name}; over {', '.join(swept)}"
+    return [*about_version(), scene, f"fixed: {fixed}", asked]
 
 
 def _collected(plan: Plan, store: Store) -> dict[str, Any]:
