@@ -12,7 +12,7 @@ from .arguments import check_branch, check_types
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, numbers
 from .inputs.materials import check_edge, parameters
-from .orbit.foundation import Foundation, foundation_of
+from .orbit.foundation import foundation_of
 from .orbit.regimes import CODE, REGIMES, SEQUENCES
 from .orbit.solved import Solved
 
@@ -52,7 +52,7 @@ class StripSolution:
     _strips: Any
     _solved: Solved
     _scales: dict
-    _foundation: Foundation
+    _material: Any
 
     def __repr__(self) -> str:
         from .display import as_text, of_strips
@@ -109,7 +109,8 @@ class StripSolution:
         p, gap = np.empty(index.size), np.empty(index.size)
         wavy = np.flatnonzero(~flat)
         which = index[wavy]
-        p[wavy], gap[wavy] = self._foundation.fields(self._strips.take(which), self._solved.take(which), phase[wavy])
+        foundation = foundation_of(self._material).flat(self.p_mean.shape)  # not kept: its solver, a module, cannot be pickled
+        p[wavy], gap[wavy] = foundation.fields(self._strips.take(which), self._solved.take(which), phase[wavy])
         level = np.flatnonzero(flat)
         p[level] = self._solved.p_mean[index[level]]
         contact = self._solved.code[index[level]] == CODE["c"]
@@ -175,8 +176,7 @@ def solve_strip(
         **parameters(material),
     )
     flat_in = [_flat(v, shape) for v in (wavelength, A, D, V, adhesion.p_0, adhesion.delta_0)]
-    foundation = foundation_of(material).flat(shape)
-    solved, strips, scales = foundation.solve(*flat_in, edge, branch)
+    solved, strips, scales = foundation_of(material).flat(shape).solve(*flat_in, edge, branch)
     scales = {name: value.reshape(shape) for name, value in scales.items()}
     p_mean, tau_mean, contact, adhesion = (
         getattr(solved, name).reshape(shape) for name in ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -184,7 +184,7 @@ def solve_strip(
     means = p_mean * scales["p"], tau_mean * scales["p"] * scales["k"] * scales["A"]
     unit, regime = 1 / scales["k"], SEQUENCES[solved.code].reshape(shape)
     a, b, c, d = (getattr(solved, name).reshape(shape) * unit for name in "abcd")
-    return StripSolution(*means, contact, adhesion, regime, a, -b, c, -d, edge, branch, strips, solved, scales, foundation)
+    return StripSolution(*means, contact, adhesion, regime, a, -b, c, -d, edge, branch, strips, solved, scales, material)
 
 
 def _flat(values, shape) -> np.ndarray:

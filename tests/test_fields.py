@@ -3,6 +3,7 @@
 Natural scales: lengths in ``1/k``, ``K = A = 1``; everything is compared with the largest pressure or displacement around.
 """
 
+import pickle
 from itertools import product
 
 import numpy as np
@@ -238,3 +239,19 @@ def test_flat_strips_have_fields():
     assert np.allclose(s.pressure(x), [1.0, -0.6, 0.0])
     assert np.allclose(s.displacement(x), [0.5, -0.3, 0.0])
     assert np.allclose(s.gap(x), [0.0, 0.05, 1.0])
+
+
+@pytest.mark.parametrize(
+    "material",
+    [
+        hystrip.StandardLinearSolid([1e9, 2e9], 1e-2, 1e-4),
+        hystrip.Prony(1e9, [1e9, 1e10], [1e-2, 1e-4]),
+        hystrip.HalfSpace(2e6, 0.5, [8e6, 1e6], [1e-3, 1e-1]),
+    ],
+    ids=lambda m: type(m).__name__,
+)
+def test_strips_can_be_pickled(material):
+    adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    s = hystrip.solve_strip(material, adhesion, l=[1e-5, 2e-5], A=5e-7, D=6e-7, V=5e-3, edge="constitutive")
+    x = np.linspace(0, 1e-5, 5)[:, None]
+    assert (pickle.loads(pickle.dumps(s)).pressure(x) == s.pressure(x)).all()
