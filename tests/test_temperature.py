@@ -25,6 +25,11 @@ MATERIALS = [
 
 
 @pytest.mark.parametrize("material", MATERIALS, ids=lambda m: type(m).__name__)
+def test_a_material_shows_its_shift(material):
+    assert "shift=" in repr(material) and eval(repr(material), vars(hystrip) | {"WLF": hystrip.WLF}) == material
+
+
+@pytest.mark.parametrize("material", MATERIALS, ids=lambda m: type(m).__name__)
 def test_friction_at_a_temperature_is_that_at_another_velocity_and_load(material):
     """``E*(omega, T) = b_T E*(a_T omega, T_ref)``: the same contact at V a_T under p/b_T."""
     T, V, p = 313.15, np.array([1e-2, 1.0]), 2e5

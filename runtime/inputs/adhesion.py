@@ -77,7 +77,9 @@ class Dugdale:
         return rebuild, (self.gamma, self.p_0, self.delta_0)
 
     def __repr__(self):
-        return f"Dugdale(gamma={self.gamma!r}, delta_0={self.delta_0!r})"
+        # of gamma and p_0 the one from which the other follows to the last digit
+        one = "gamma" if np.array_equal(_traction(np.asarray(self.gamma), np.asarray(self.delta_0)), self.p_0) else "p_0"
+        return f"Dugdale({one}={getattr(self, one)!r}, delta_0={self.delta_0!r})"
 
     def _key(self):
         return (np.asarray(self.p_0).tobytes(), np.asarray(self.delta_0).tobytes())

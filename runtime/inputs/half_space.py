@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import InputError
 from .checks import number, numbers
 from .fitted import FittedBand, check_fit
+from .material import as_call
 from .prony import Prony
 from .shift import Shift, check_shift
 
@@ -54,9 +55,11 @@ class HalfSpace:
     nu: float
     moduli: tuple[float, ...] = ()
     times: tuple[float, ...] = ()
-    solver: Solver | None = field(default=None, repr=False)
-    shift: Shift | None = field(default=None, kw_only=True, repr=False)
-    fit: FittedBand | None = field(default=None, kw_only=True, repr=False)
+    solver: Solver | None = None
+    shift: Shift | None = field(default=None, kw_only=True)
+    fit: FittedBand | None = field(default=None, kw_only=True)
+
+    __repr__ = as_call
 
     if TYPE_CHECKING:
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +13,12 @@ from .shift import Shift, check_shift, factors_at
 
 if TYPE_CHECKING:
     from ..typing import Floats, Numbers
+
+
+def as_call(material: Any) -> str:
+    """A material as the call that makes it, without what is not given: two that differ look different."""
+    given = {each.name: getattr(material, each.name) for each in fields(material) if each.init}
+    return f"{type(material).__name__}({', '.join(f'{key}={value!r}' for key, value in given.items() if value is not None)})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +42,9 @@ class StandardLinearSolid:
     K: Any
     T_eps: Any
     T_sigma: Any
-    shift: Shift | None = field(default=None, kw_only=True, repr=False)
+    shift: Shift | None = field(default=None, kw_only=True)
+
+    __repr__ = as_call
 
     if TYPE_CHECKING:
 
@@ -111,7 +119,9 @@ class KelvinVoigt(StandardLinearSolid):
     KelvinVoigt(K=1000000000.0, T_eps=0.01)
     """
 
-    T_sigma: Any = field(default=0.0, init=False, repr=False)
+    T_sigma: Any = field(default=0.0, init=False)
+
+    __repr__ = as_call
 
     if TYPE_CHECKING:
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import InputError
 from .checks import broadcast, numbers, sequence
 from .fitted import FittedBand, check_fit
-from .material import StandardLinearSolid
+from .material import StandardLinearSolid, as_call
 from .shift import Shift, check_shift, factors_at
 
 if TYPE_CHECKING:
@@ -54,9 +54,11 @@ class Prony:
     K: Any
     moduli: tuple[Any, ...]
     times: tuple[Any, ...]
-    solver: Solver | None = field(default=None, repr=False)
-    shift: Shift | None = field(default=None, kw_only=True, repr=False)
-    fit: FittedBand | None = field(default=None, kw_only=True, repr=False)
+    solver: Solver | None = None
+    shift: Shift | None = field(default=None, kw_only=True)
+    fit: FittedBand | None = field(default=None, kw_only=True)
+
+    __repr__ = as_call
 
     if TYPE_CHECKING:
 
