@@ -196,6 +196,11 @@ def test_table_function_and_data_give_the_same_series():
         fit_prony(lambda omega: np.ones(3), band=(1e-2, 1e2))
 
 
+def test_a_band_may_be_an_array():
+    fitted = [fit_prony(fractional_zener, band=band, terms=8) for band in ((1e-2, 1e2), np.array([1e-2, 1e2]))]
+    assert fitted[0] == fitted[1]
+
+
 def test_poor_fit_warns_with_its_band():
     with pytest.warns(hystrip.dma.FitWarning, match="poor fit: .* rms between 0.01 and 1e\\+06 Hz"):
         series = fit_prony(fractional_zener, band=(1e-2, 1e6), terms=3)

@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+import xarray
 
 import hystrip
 from hystrip.multilevel import Surface
@@ -222,3 +223,16 @@ def test_inputs_cannot_be_changed_past_their_checks():
     for owner, name in ((MATERIAL, "K"), (ADHESION, "p_0"), (LEVEL, "h")):
         with pytest.raises(AttributeError):
             setattr(owner, name, -1.0)
+
+
+def test_a_number_may_be_an_array_of_xarray_without_dimensions_and_angles_a_list():
+    one = xarray.DataArray(5e-3)
+    assert surface(velocity=one).mu == surface(velocity=5e-3).mu
+    assert hystrip.HalfSpace(2e6, 0.5, xarray.DataArray([8e6]), [one]) == hystrip.HalfSpace(2e6, 0.5, [8e6], [5e-3])
+    assert (LEVEL.amplitude([0, 1.0]) == LEVEL.amplitude(np.array([0, 1.0]))).all() and LEVEL.drop([0])[0] == 0
+
+
+def test_adhesion_is_shown_as_the_call_that_makes_it():
+    for law in (ADHESION, hystrip.Dugdale(p_0=15300.0, delta_0=3.3e-9), hystrip.Dugdale(gamma=0.05, p_0=5e5)):
+        assert eval(repr(law), vars(hystrip)) == law
+    assert repr(ADHESION) == "Dugdale(gamma=2.5e-05, delta_0=1e-08)"

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import number, numbers
+from ..inputs.checks import number, numbers, sequence
 from ..inputs.fitted import POOR, FittedBand
 from ..inputs.prony import MOST_TIMES
 from .modulus import DynamicModulus
@@ -110,11 +110,12 @@ def fit_prony(
 
 
 def _as_data(data: Any, band: Any) -> DynamicModulus:
-    if band is not None and (not isinstance(band, (tuple, list)) or len(band) != 2):
-        raise InputError("band", band, "(lowest, highest) frequency, Hz")
+    allowed = "(lowest, highest) frequency, Hz"
+    if band is not None and len(sequence("band", band, allowed)) != 2:
+        raise InputError("band", band, allowed)
     if callable(data):
         if band is None:
-            raise InputError("band", None, "(lowest, highest) frequency, Hz, over which the function is fitted")
+            raise InputError("band", None, f"{allowed}, over which the function is fitted")
         return DynamicModulus.from_function(data, *band)
     if isinstance(data, tuple) and len(data) == 2:
         data = DynamicModulus.from_complex(*data)

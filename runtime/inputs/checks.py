@@ -107,11 +107,13 @@ def holds_truth(value: Any) -> bool:
 
 
 def _length(value: Any) -> float:
-    """Entries of a sequence; inf where there are more than a machine integer counts."""
+    """Entries of a sequence; inf where there are more than a machine integer counts, one of what is a single number."""
     try:
         return len(value)
     except OverflowError:
         return np.inf
+    except TypeError:  # such as an array of xarray without dimensions
+        return 1
 
 
 def _first(value: Any, array: np.ndarray, bad: np.ndarray) -> Any:

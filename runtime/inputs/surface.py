@@ -48,11 +48,11 @@ class Level:
 
     def amplitude(self, theta: Numbers) -> Floats:
         """Amplitude A of the strip at ``theta = k y`` (Eq. 8), m: zero at ``theta = pi``."""
-        return 0.5 * self.h * np.cos(0.5 * theta) ** 2
+        return 0.5 * self.h * np.cos(np.multiply(0.5, theta)) ** 2
 
     def drop(self, theta: Numbers) -> Floats:
         """Depth by which the strip's crest lies below the level's, ``(h/2)(1 - cos ky)`` (Eq. 8), m."""
-        return self.h * np.sin(0.5 * theta) ** 2
+        return self.h * np.sin(np.multiply(0.5, theta)) ** 2
 
     def strip(self, y: Numbers, D: Numbers) -> tuple[Floats, Floats]:
         """Amplitude A and penetration D_j of the strip at ``y`` (m) where the level is pressed in by ``D`` (m) (Eq. 8), m.
