@@ -45,6 +45,7 @@ def of_result(result: Result) -> Shown:
     work = f"{counts['strips_solved']} strips solved" if counts["strips_solved"] else "no strip to solve"
     return f"Result: {_count(size, 'point')}, {_count(len(result.levels), 'level')}", [
         ("mu", f"{span(result.mu)}, error at most {_most(result.error_estimate)}{_missed(result)}"),
+        *([("penetration", span(result.penetration, "m"))] if result.load == "penetration" else []),
         ("pressure", span(result.pressure, "Pa")),
         ("velocity", span(result.velocity, "m/s")),
         ("real contact", percent(result.contact_fraction)),
@@ -88,7 +89,7 @@ def of_sweep(sweep: Sweep) -> Shown:
     axes = [f"{axis.name} ({axis.values.size}): {span(axis.values, axis.unit)}" for axis in plan.axes]
     together = "every combination" if plan.combine == "grid" else "taken together"
     return f"Sweep of {plan.name}: {_count(plan.size, 'point')}, {_count(plan.levels, 'level')}", [
-        ("over", "; ".join(axes) + (f", {together}" if len(axes) > 1 else "") if axes else "nothing: a single point"),
+        ("over", "; ".join(axes) + (f", {together}" if len(axes) > 1 else "")),
         ("mu", f"{span(sweep.columns['mu'])}, error at most {_most(sweep.columns['error estimate of mu'])}"),
         ("failed", _count(failed, "point") + (f": {next(iter(sweep.failed.values()))}" if failed else "")),
         ("work", f"{sweep.solved} batches solved now, {sweep.kept} from before"),

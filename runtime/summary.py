@@ -45,11 +45,13 @@ def _inputs(result: Any) -> list[str]:
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
     at = "" if result.temperature is None else f", at {result.temperature:.5g} K"
     panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
+    given = f"penetration {span(result.penetration, 'm')}, " if result.load == "penetration" else ""
+    at_load = f"{given}pressure {span(result.pressure, 'Pa')}"
     return [
         f"material   {model_name(m)}: {_parameters(m)}" + at,
         f"adhesion   {sticky}",
         f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
-        f"points     {np.size(result.mu)}: pressure {span(result.pressure, 'Pa')}, velocity {span(result.velocity, 'm/s')}",
+        f"points     {np.size(result.mu)}: {at_load}, velocity {span(result.velocity, 'm/s')}",
         *([f"excited    {known}"] if known else []),
         *(f"note       {note}" for note in result.notes),
     ]
@@ -82,7 +84,7 @@ def _levels(result: Any) -> list[str]:
     head = ["level", "l [m]", "h [m]", "De = k V T_eps", "V of its peak if", "p_sat alone"]
     rows = [[*head, "share of mu", "in contact", "in adhesion"], ["", "", "", "", "saturated [m/s]", "[Pa]", "", "", ""]]
     for i, level in enumerate(result.levels):
-        p_sat = saturated_level(result.material, result.adhesion, level, V).p_sat
+        p_sat = saturated_level(result.material, result.adhesion, level, V, result.branch).p_sat
         rows.append([
             str(i + 1), f"{level.l:.4g}", f"{level.h:.4g}", span(De[i]), f"{V_peak[i]:.4g}", span(p_sat),
             percent(part[i]), percent(result.contact_by_level[i]), percent(result.adhesion_by_level[i]),
@@ -112,7 +114,7 @@ def _friction(result: Any) -> list[str]:
 def _contact(result: Any) -> list[str]:
     return [
         f"real contact (touching on every level)  {percent(result.contact_fraction)}",
-        f"level 1 is saturated from {span(result.p_sat, 'Pa')}",
+        f"level 1 is saturated from {span(result.p_sat, 'Pa')}{' at the latest' if result.branch == 'loading' else ''}",
         *special_points(result),
     ]
 

@@ -83,6 +83,15 @@ def test_summary_says_it_all(grid):
     assert peak_velocities(grid) == pytest.approx([1e-5 / (2e-4 * np.pi), 5e-7 / (2e-4 * np.pi), 5e-9 / (2e-4 * np.pi)])
 
 
+def test_a_penetration_that_was_given_is_told_and_a_bound_on_saturation_as_such():
+    one = hystrip.solve(MATERIAL, ADHESION, LEVELS[:1], penetration=4e-6, velocity=5e-3, branch="loading", rtol=1e-2)
+    assert "penetration   4e-06 m" in repr(one) and "penetration 4e-06 m, pressure" in one.summary()
+    text, least = one.summary(), f"{one.p_sat:.4g}"
+    assert (
+        f"level 1 is saturated from {least} Pa at the latest" in text and f" {least} " in text.split("saturated [m/s]")[1][:200]
+    )
+
+
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 def test_regimes_of_every_level_agree_with_the_result(branch):
     """Two levels in partial contact: the strips looked at have the contact that the averages have."""
