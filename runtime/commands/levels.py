@@ -14,14 +14,18 @@ _OPTIONS = {each: f"--{each}" for each in ("count", "ratio", "wavelength", "long
 
 def command(
     surface: Path = typer.Argument(help="A measured surface, in any format that SurfaceTopography reads."),
-    count: int = typer.Option(None, "--count", help="Number of levels, in bands of equal width on a logarithmic scale [2]."),
+    count: int = typer.Option(
+        None,
+        "--count",
+        help="Number of bands, of equal width on a logarithmic scale; each that has any roughness gives a level [2].",
+    ),
     ratio: float = typer.Option(None, "--ratio", help="Or the ratio of the wavelengths that bound a band."),
     longest: str = typer.Option(
         None, "--longest", help='Longest wavelength, such as "20 um" [half the scan; periodic: all of it].'
     ),
     shortest: str = typer.Option(None, "--shortest", help='Shortest wavelength, such as "0.1 um" [four points].'),
     wavelength: str = typer.Option(
-        "gradient", "--wavelength", help="A level keeps the rms gradient of its band, or stands at its centre."
+        "gradient", "--wavelength", help="gradient: a level keeps the rms gradient of its band; centre: it stands in the middle."
     ),
     channel: str = typer.Option(None, "--channel", help="Name of the channel [the file's default]."),
     unit: str = typer.Option(None, "--unit", help="Unit of what the file states no unit of: heights, lengths or both."),
