@@ -7,7 +7,7 @@ import time
 from types import SimpleNamespace
 
 import distributed
-import numpy as np
+import pandas
 import pytest
 
 import hystrip
@@ -58,8 +58,8 @@ def test_the_command_line_finds_the_scheduler(cluster, tmp_path):
     command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", cluster.scheduler_address]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0 and "wrote hystrip-out/s.sweep.csv" in done.stdout, done.stderr
-    values = np.genfromtxt(tmp_path / "hystrip-out/s.sweep.csv", delimiter=",", names=True, usecols=(0, 1), skip_header=4)
-    assert values.size == 4 and (values["mu"] > 0).all()
+    values = pandas.read_csv(tmp_path / "hystrip-out/s.sweep.csv", comment="#")
+    assert len(values) == 4 and (values["mu"] > 0).all()
 
 
 def test_no_scheduler_is_one_sentence(tmp_path):
