@@ -12,6 +12,7 @@ from ..inputs.adhesion import Dugdale
 from ..inputs.materials import Material
 from ..inputs.surface import Level
 from ..numerics.rounding import LARGEST
+from ..orbit.contact import Contact
 from ..orbit.foundation import Foundation, foundation_of
 from ..orbit.groups import ROUNDING
 from ..orbit.regimes import CODE
@@ -20,7 +21,6 @@ from .regime_map import Crossings
 from .saturated import SaturatedLevel, saturated_level
 
 if TYPE_CHECKING:
-    from ..orbit.contact import Contact
     from .lower_levels import LowerLevelLaws
     from .nonadhesive.family import Family
     from .nonadhesive.law import FamilyLaws
@@ -186,7 +186,8 @@ class SolvedStrips:
     def touching(self) -> tuple[np.ndarray, Contact]:
         """Which strips are in contact, and their contact."""
         index = np.flatnonzero(self.solved.contact_fraction > 0)
-        return index, self.foundation.contact(self.strips, self.solved, self.scales, index)
+        unit, flat = (self.scales[name][index] for name in ("p", "flat"))
+        return index, Contact(self.foundation, self.strips.take(index), self.solved.take(index), unit, flat)
 
 
 def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:

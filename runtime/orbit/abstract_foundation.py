@@ -14,7 +14,6 @@ from ..errors import InputError, SolverError
 from ..inputs.materials import parameters
 from ..numerics.rounding import LARGEST
 from .at_rest import AT_REST, SLOW, solve_at_rest
-from .contact import Contact
 from .groups import TWO_PI, snaps_in
 from .nonadhesive import Waves
 from .regimes import CODE, ZONES
@@ -182,10 +181,6 @@ class Foundation(ABC):
         if zone == "c":
             return self.kernel.excess_event, self.excess(start, entry, strips)
         return self.kernel.gap_event, self.gap(start, entry, -strips.p_0 if zone == "a" else 0 * strips.p_0, strips)
-
-    def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
-        """Contact of the solved strips ``index``, as ``solve`` returned them."""
-        return Contact(self, strips.take(index), solved.take(index), scales["p"][index], scales["flat"][index])
 
     def modulus_ratio(self, rate) -> np.ndarray:
         """``|K*(i rate)|/K``."""

@@ -63,7 +63,6 @@ class _Batch:
         if not index.size:
             return
         found = Search(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask).run()
-        self.solved.code[index] = CODE["acaf"]
         self.solved.searched[index] = True
         self.record.constant(index[found.kind == FREE], "f")
         orbit = found.kind == ORBIT
@@ -92,7 +91,6 @@ class _Batch:
         z, edges, known, within = _engaged(self.kernel, replace(s, bare=True) if sequence == "cf" else s, met)
         self.solved.searched[index] = True
         k = np.flatnonzero(within)
-        self.solved.code[index] = CODE[sequence]
         self.record.orbits(index[k], sequence, Orbit.of(sequence, edges[:, k]))
         # of a gap that hardly opens rounding may leave nothing
         self.record.saturated_contact(index[~known & self.nearly[index]])

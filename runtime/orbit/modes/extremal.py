@@ -5,27 +5,24 @@ import numpy as np
 from ...numerics.linear import solve_each
 from ...numerics.rounding import EPS
 from ..certificate import STABLE
+from ..chain import CONVERGED
 from ..groups import ROUNDING, TWO_PI
 from ..regimes import CODE, EDGES
-from .forced import Forced
+from .forced import AGREE, Forced
 from .march import march
 from .problem import ModeStrips, state_at
 from .windows import alone, balanced, linearised, links, newton
 
 #: where a strip is given up; steps of Newton's method: far from a narrow contact each shrinks it by a third only
 _STEPS, _ITERATIONS = 300, 40
-#: agreement of the edges with a march of the period
-AGREE = 1e-7
-#: windows so close to an orbit's tell it from others by rounding: of that it is asked to be stable, too
-_NARROW = 1e-6
 #: a chain of windows leads to an orbit or to where orbits have vanished: each goes such a share of what is left, at most
 _SHARE = 0.35
 #: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
-#: the last step of an orbit is this, or so many times what rounding leaves of its edges, at most the last; more is a correction
-_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 8, 1e-6
+#: beside ``CONVERGED`` the last step of an orbit is so many times what rounding leaves of its edges; more is a correction
+_ROUNDINGS = 8
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
@@ -98,7 +95,8 @@ class Search:
             d, b, a, c = edges[:, k]
             apart = np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0)
             proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE) | (apart <= AGREE + self.known[i[k]])
-            narrow = proven[k] & (apart <= _NARROW + self.known[i[k]])
+            # windows so close to an orbit's tell it from others by rounding: of that it is asked to be stable, too
+            narrow = proven[k] & (apart <= STABLE + self.known[i[k]])
             proven[k[narrow]] = self._stable(i[k[narrow]])
             self.kind[i[proven]] = ORBIT
         return proven
@@ -207,7 +205,7 @@ def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
     """Orbits in the regime ``sequence`` from ``edges`` (k, N); which converged, in order; how well their edges are known."""
     with np.errstate(all="ignore"):
         edges, last, known = _converging(kernel, strips, sequence, edges)
-    good = last <= _CONVERGED + _ROUNDINGS * known
+    good = last <= CONVERGED + _ROUNDINGS * known
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
     return edges, good, known
 
@@ -230,7 +228,7 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual)))
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
-        better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _COARSEST))
+        better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > STABLE))
         moved = active[better]
         edges[:, moved] = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
         last[moved] = size[better]
@@ -242,8 +240,8 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
         settled = ahead <= _SETTLED
         last[active[better & settled]] = ahead[better & settled]
-        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < _COARSEST)) | (iteration < _LOST_AFTER)
+        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < STABLE)) | (iteration < _LOST_AFTER)
         active = active[better & ~settled & on]
         if not active.size:
             break
-    return edges, last, np.minimum(attainable, _COARSEST)
+    return edges, last, np.minimum(attainable, STABLE)

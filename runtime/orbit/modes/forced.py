@@ -15,9 +15,9 @@ from .problem import ModeStrips, rates
 
 #: cells in which a chord is bounded: more bound it closer, by as much work
 _CELLS = np.linspace(0.0, 1.0, 7) ** 1.5
-#: orbits are settled where a turn moves their edges by no more, as they err by the square of that; and after how many turns they
-#: are given up: Newton's method takes three or four, and what it does not find in eight has more than one contact
-_SETTLED, _SETTLING = 1e-7, 12
+#: agreement of edges with those that a turn meets: orbits err by the square of that; and after how many turns forced ones are
+#: given up: Newton's method takes three or four, and what it does not find in eight has more than one contact
+AGREE, _SETTLING = 1e-7, 12
 
 
 class Forced:
@@ -56,7 +56,7 @@ class Forced:
                 break
             here = found.take(left)
             after, followed = here.turned(edges[[0, 3]][:, left], exactly)
-            good[left] = followed & (np.abs(after - here.edges).max(axis=0) <= _SETTLED)
+            good[left] = followed & (np.abs(after - here.edges).max(axis=0) <= AGREE)
             left, after = left[~good[left]], after[:, ~good[left]]
             found.edges[:, left] = after
             found.states[..., left] = cls(kernel, s.take(left), after).states
