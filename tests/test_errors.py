@@ -8,6 +8,7 @@ import xarray
 
 import hystrip
 from hystrip.multilevel import Surface
+from hystrip.orbit import single
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -199,6 +200,20 @@ def test_friction_that_is_no_number_is_an_error(monkeypatch):
         hystrip.SolverError, match="1 of 3 points have no finite friction; the first: pressure 2e.06, velocity 0.005"
     ):
         surface(pressure=[1e6, 2e6, 3e6])
+
+
+def test_a_strip_that_cannot_be_certified_is_named_with_all_that_it_is(monkeypatch):
+    def refusing(*of):
+        solved = solve_strips(*of)
+        solved.certified[1] = False
+        return solved
+
+    solve_strips = single.solve_strips
+    monkeypatch.setattr(single, "solve_strips", refusing)
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=[1e-4, 2e-4, 3e-4])
+    named = "l=1e-05, A=1e-07, D=2e-08, V=0.001, K=1000000000.0, T_eps=0.01, T_sigma=0.0002, p_0=2500.0, delta_0=1e-08"
+    with pytest.raises(hystrip.SolverError, match=f"^1 of 3 strips .*, strip 1: {named}, edge='continuous', branch='unloading'$"):
+        hystrip.solve_strip(material, hystrip.Dugdale(p_0=2.5e3, delta_0=1e-8), l=1e-5, A=1e-7, D=[1e-8, 2e-8, 3e-8], V=1e-3)
 
 
 def test_an_argument_that_does_not_exist():

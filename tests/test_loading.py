@@ -13,6 +13,7 @@ import pytest
 import hystrip
 import hystrip.generated
 from hystrip import InputError
+from hystrip.orbit.foundation import foundation_of
 from hystrip.scene import parse_scene
 from hystrip.scene.errors import SceneError
 
@@ -58,6 +59,19 @@ def test_a_loaded_solver_solves_as_the_package_does(folder):
         level = hystrip.solve_level(material, ADHESION, hystrip.Level(1e-5, 1e-6), V=1e-3, D=3e-7, edge="constitutive", rtol=1e-3)
         assert np.isfinite(level.p_mean)
     assert "rtol 0.001; generalised" in str(level)
+
+
+def test_a_branch_that_is_idle_changes_nothing(folder):
+    solver = hystrip.load_solver(folder)
+    (K_1, K_2), (tau_1, tau_2) = MODULI, TIMES
+    idle = ((K_1, 0.0, K_2), (tau_1, 1e-2, tau_2)), ((K_1, K_2, 1e9), (tau_1, tau_2, 0.0))
+    rates = [
+        foundation_of(solver.material("generalised", K=1e9, K_i=moduli, tau_i=times)).lossiest_rate
+        for moduli, times in ((MODULI, TIMES), *idle)
+    ]
+    assert rates[1:] == pytest.approx(rates[:1] * 2, rel=1e-6)
+    elastic = hystrip.Prony(1e9, [0.0], [1e-3], solver=solver)
+    assert foundation_of(elastic).longest_time == 0
 
 
 def test_parameters_of_a_loaded_model_are_checked(folder):

@@ -8,6 +8,7 @@ import surfaces
 import hystrip
 import hystrip.level.nonadhesive.law
 import hystrip.multilevel
+import hystrip.orbit.nonadhesive
 from hystrip.errors import SolverError
 from hystrip.level.averages import level_means
 from hystrip.level.nonadhesive.average import Span
@@ -222,6 +223,14 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     assert (np.abs(near - far) <= rtol * (np.abs(far) + floors)).all()
     with pytest.raises(SolverError, match="beyond its family"):
         means(columns.at(slow[:1], top[1:]), 0.01 * HEIGHT * np.ones(1))
+
+
+def test_strips_in_closed_form_that_are_not_certified_are_searched_for(monkeypatch):
+    scene = {"material": SOFT, "adhesion": NONE, "levels": SIMILAR[:2], "pressure": 100.0, "velocity": 1e-3, "rtol": 1e-4}
+    known = hystrip.solve(**scene)
+    monkeypatch.setattr(hystrip.orbit.nonadhesive, "_ROUNDING", -1.0)
+    found = hystrip.solve(**scene)
+    assert found.tau == pytest.approx(known.tau, abs=float(found.tau_error + known.tau_error)) and found.tau != known.tau
 
 
 @pytest.mark.parametrize("pressure", [1e-8, 1.0])

@@ -151,10 +151,10 @@ class Prony:
     @property
     def single(self) -> StandardLinearSolid | None:
         """The standard linear solid that this is with one time (with none: an elastic foundation), else None."""
-        if self.n > 1 or self.solver is not None:
-            return None
         if self.n == 0:
             return StandardLinearSolid(self.K, 0.0, 0.0)
+        if self.n > 1 or self.solver is not None:
+            return None
         tau = self.times[0]
         return StandardLinearSolid(self.K, np.asarray(tau) * (1 + np.asarray(self.moduli[0]) / self.K), tau)
 

@@ -28,9 +28,7 @@ class ManyTimes(Foundation):
     @property
     def lossiest_rate(self):
         """By a grid in the logarithm of the rate, refined about its largest value."""
-        times = self.modes.alpha[self.modes.alpha > 0]
-        if not times.size or (self.modes.alpha == 0).any():
-            return np.inf
+        times = self.modes.alpha[self.modes.alpha > 0]  # a branch at rest has none
         low, high = np.log(0.1 / times.max()), np.log(10 / times.min())
         for _ in range(6):
             grid = np.linspace(low, high, 401)
