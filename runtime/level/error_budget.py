@@ -55,7 +55,7 @@ def peak_pressure(columns: LevelBatch, strips: SolvedStrips) -> np.ndarray:
         peak[index] = contact.p_peak
     peak = peak.reshape(columns.size, -1)
     level, R = columns.level, foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
-    steeper = (columns.D - level.h)[:, None] + level.amplitude(_THETA[:-1]) * (1 + np.reshape(R, (-1, 1)))
+    steeper = (columns.D - level.h)[:, None] + level.amplitude(_THETA[:-1]) * (1 + R[:, None])
     rising = peak[:, 1:] > peak[:, :-1]
     # where no strip touches there may be contact between two in different regimes
     code = strips.solved.code.reshape(peak.shape)

@@ -19,7 +19,7 @@ from .walk import Root, Walk, growing
 
 #: accuracy of the first look, of the pressure's scale, and the finest: a pressure so close to a turn of the curve is left
 #: undecided; nodes of an interval at first
-ROUGH, _CLOSEST, _FIRST = 1e-2, 1e-8, 8
+_ROUGH, _CLOSEST, _FIRST = 1e-2, 1e-8, 8
 #: width of the first part of the curve to be looked at, in heights, and penetrations in each part at which the crest is
 _NEXT, _LOOKS = 0.3, 12
 
@@ -87,7 +87,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     D, power, slope = np.sqrt(2 * np.pi * h * low), np.full(p.size, 2.0), np.full((p.size, len(QUANTITIES)), np.nan)
     if columns.family is not None:
         D, power = penetrations(columns, p)
-    for accuracy in (max(rtol, ROUGH), rtol) if columns.family is None else (rtol,):
+    for accuracy in (max(rtol, _ROUGH), rtol) if columns.family is None else (rtol,):
         at = Root(np.log(np.clip(D, low, high)), power, slope, np.log(low), np.log(high))
         # however little the pressure is, friction goes with it
         x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
@@ -100,7 +100,7 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     h, q, unloading, bottom = columns.level.h, columns.scales.size, columns.branch == "unloading", first_contact(columns)
     out, left, strips, floor = Penetrations.at(p * np.nan), np.arange(p.size), np.zeros(p.size, int), 1e-3 * columns.scales[0]
     size, ways = np.abs(p) + floor, [growing(bottom, top, _NEXT * h, unloading) for top in cut_penetration(columns, p, full)]
-    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
+    goal = np.maximum(_ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
     walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]
     while left.size:
         _go_along(columns, [walks[i] for i in left], strips)

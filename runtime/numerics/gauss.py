@@ -21,7 +21,7 @@ from .rounding import EPS
 GENTLE, STEEP = 2, 4
 
 
-def graded_share(t: np.ndarray, low: int = STEEP, high: int = STEEP) -> np.ndarray:
+def graded_share(t: np.ndarray, low: int, high: int) -> np.ndarray:
     """Share of an interval below ``t``, both in [0, 1]: like ``t^low`` next to 0 and ``1 - (1 - t)^high`` next to 1; to the
     digits of the distance from either end."""
     t, n = np.asarray(t, float), low + high - 1

@@ -35,7 +35,7 @@ from .sensitivity import slope_excess
 #: where two edges all but coincide, all. 10 and 24 for these do as well
 ITERATIONS = 14
 #: share of the way to the end of its arc that an edge may move at once
-_BOLD = 0.9
+_FARTHEST = 0.9
 #: largest correction that an orbit may still ask for
 CONVERGED = 1e-13
 #: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
@@ -134,7 +134,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
             move, slope = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
             # edges stay inside their arcs
-            least, most = edges + _BOLD * (low - edges), edges + _BOLD * (high - edges)
+            least, most = edges + _FARTHEST * (low - edges), edges + _FARTHEST * (high - edges)
             edges = _in_order(np.minimum(np.maximum(edges + move, least), most))
             # a step this small leaves an error of its square. Where the map does not contract there is no extremal orbit ahead
             going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]

@@ -59,7 +59,7 @@ class Family:
 
     def __init__(self, foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: bool):
         self.foundation, self.rate, self.carries, self.found = foundation, rate, carries, _FOUND * accuracy
-        self.s_sat = 1 + np.broadcast_to(foundation.modulus_ratio(rate), rate.shape)
+        self.s_sat = 1 + foundation.modulus_ratio(rate)
         # a level of height h averages K A kA loss/2 over its strips, half the loss modulus, and the mean of A^2 is 3 h^2/32
         self.full = foundation.saturation_friction(2 * np.pi, 1.0, rate) * 32 / (3 * foundation.K)
         self.strips, self.top = 0, np.zeros(rate.size)
