@@ -104,7 +104,8 @@ def span(values: Any, unit: str = "") -> str:
     tail = f" {unit}" if unit else ""
     if not values.size:
         return "-"
-    low, high = f"{values.min():.4g}", f"{values.max():.4g}"
+    digits = 5 if unit == "K" else 4  # 293.15 K
+    low, high = f"{values.min():.{digits}g}", f"{values.max():.{digits}g}"
     return (low if low == high else f"{low} .. {high}") + tail
 
 

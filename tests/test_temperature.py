@@ -170,6 +170,7 @@ def test_sweep_over_a_shift(run, tmp_path):
     over = {"material.shift.vertical": [-1.0, 1.0], "material.shift.T_ref": [280.0, 293.15]}
     done = hystrip.sweep(tmp_path / "shift.toml", over=over, out=tmp_path / "out")
     assert [axis.name for axis in done.plan.axes] == ["T_ref", "C_2", "vertical"] and done.plan.size == 8
+    assert "T_ref (2): 280 .. 293.15 K" in str(done)
     scene = parse_scene(SCENE)
     for row in range(8):
         T_ref, C_2, vertical = (done.columns[name][row] for name in ("T_ref [K]", "C_2 [K]", "vertical [1]"))
