@@ -19,8 +19,8 @@ _STEPS, _ITERATIONS = 300, 40
 _SHARE = 0.35
 #: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
-#: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
-_SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
+#: a step expected to be this small is not taken; steps that hardly shrink after so many lead nowhere
+_SETTLED, _LOST_AFTER, _SHRINKS = 2 * EPS, 4, 0.7
 #: beside ``CONVERGED`` the last step of an orbit is so many times what rounding leaves of its edges; more is a correction
 _ROUNDINGS = 8
 #: edges of each sequence, by their rows in the order d, b, a, c
@@ -240,7 +240,7 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
         settled = ahead <= _SETTLED
         last[active[better & settled]] = ahead[better & settled]
-        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < STABLE)) | (iteration < _LOST_AFTER)
+        on = (size < _SHRINKS * before) | (size < STABLE) | (iteration < _LOST_AFTER)
         active = active[better & ~settled & on]
         if not active.size:
             break
