@@ -252,6 +252,50 @@ SHORT = {
         -2.2449699781513038e-05,
         5.919766340997114e-05,
     ),
+    "Newton's method halves its steps at first, a branch stiff as glass": (
+        "loading",
+        [9836065573.77, 15409836065.6, 5901639344260000.0, 491803278.689],
+        [4.3e-10, 5.60089502847e-09, 1.7e-06, 5.4e-06],
+        28.19672131147541,
+        6e-08,
+        1.73e-07,
+        4.08e-09,
+        -1.718921205711263e-08,
+        5.2e-06,
+    ),
+    "contact 5e-7 long at the crest, loading": (
+        "loading",
+        [5702259487.19, 143989286734.0, 3538912709.95, 163676558686.0, 203563988820.0, 74676537065.9],
+        [1.16722859291e-14, 2.03073176002e-14, 4.43626483381e-13, 1.73120373346e-12, 4.69141252381e-08, 1.53405418005e-07],
+        1.3681441765869003e-06,
+        3.4720069570844567e-12,
+        1e-05,
+        1e-09,
+        -1.3681439719802476e-15,
+        1.5915494309189535e-06,
+    ),
+    "contact 5e-7 long at the crest, unloading": (
+        "unloading",
+        [815895343722.0, 78755397180.7, 442144982.16],
+        [2.78679003407e-13, 1.44864654446e-12, 8.54728567524e-10],
+        2.5151340175608636e-05,
+        2.4187124749849633e-10,
+        1e-05,
+        1e-09,
+        -2.5151339909367856e-14,
+        1.5915494309189535e-06,
+    ),
+    "a gap that no displacement tells from none, a branch of 1e7": (
+        "loading",
+        [620415803.142, 1040000000.0, 9000000000000000.0, 147000000.0, 6300000000000.0, 316000000.0, 440000000.0],
+        [3e-05, 5.7e-05, 0.0003, 0.000373, 0.0008, 0.0126, 2.0],
+        0.0003447440922919718,
+        7.860000000000001e-10,
+        1e-05,
+        1e-09,
+        1.4188416227308367e-08,
+        7.734930234266114e-09,
+    ),
 }
 
 
@@ -263,6 +307,26 @@ def test_adhesion_that_hardly_lasts_is_found(case):
     true = [oracle.solve_si(K, moduli, times, V, l, A, each, p_0, delta_0, branch, digits=30) for each in D]
     assert found.regime.tolist() == [each.sequence for each in true]
     assert found.p_mean == pytest.approx([float(each.p_mean) for each in true], rel=1e-12)
+
+
+def test_a_narrow_contact_far_from_the_first_guess_is_found():
+    """A foundation that hardly moves in a period: each turn narrows the contact of the forced orbit by two fifths only."""
+    strip = (
+        "loading",
+        [1666666666670000.0, 466666666.667, 266666666.667],
+        [0.14, 262.500833988, 1300.0],
+        206.16128383866416,
+        8.3e-08,
+        0.0018,
+        1.4092887514418412e-07,
+        -7.4156984793030244e-09,
+        3.0,
+    )
+    branch, moduli, times, p_0, delta_0, l, A, D, V = strip  # noqa: E741
+    found = solved(D, *strip)
+    true = oracle.solve_si(K, moduli, times, V, l, A, D, p_0, delta_0, branch, digits=20)
+    assert found.regime == true.sequence
+    assert found.p_mean == pytest.approx(float(true.p_mean), rel=1e-12)
 
 
 def test_edges_are_known_as_well_as_is_said():
