@@ -16,8 +16,8 @@ from .problem import ModeStrips, rates
 #: cells in which a chord is bounded: more bound it closer, by as much work
 _CELLS = np.linspace(0.0, 1.0, 7) ** 1.5
 #: agreement of edges with those that a turn meets: orbits err by the square of that; and after how many turns forced ones are
-#: given up: Newton's method takes three or four, thirteen where it narrows a contact by two fifths each, or there are several
-AGREE, _SETTLING = 1e-7, 40
+#: given up: Newton's method takes three or four, thirteen where it narrows a contact by two fifths each
+AGREE, _SETTLING = 1e-7, 16
 
 
 class Forced:
