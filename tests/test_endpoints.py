@@ -11,7 +11,7 @@ from hystrip.level.curve import smooth_intervals
 from hystrip.level.interpolation import interpolate
 from hystrip.level.strips import LevelBatch
 from hystrip.numerics.chebyshev import flat_ended, lobatto
-from hystrip.numerics.gauss import GENTLE, STEEP, graded_share
+from hystrip.numerics.gauss import GENTLE, STEEP, graded_gauss, graded_share, left_out
 
 POWERS = [(a, b) for a in (GENTLE, STEEP) for b in (GENTLE, STEEP)]
 
@@ -69,3 +69,19 @@ def test_a_wrong_guess_costs_no_digits():
         t = np.array([0.13, 0.5, 0.87])
         means = level_means(columns.at(np.zeros(3, int), piece.penetration(t)), np.full(3, 1e-8))
         assert (np.abs(piece.values(t) - means.values) <= piece.errors.most + means.errors).all()
+
+
+@pytest.mark.parametrize("n", [12, 20])
+@pytest.mark.parametrize(
+    "layer",
+    [lambda x, d: x / (x + d), lambda x, d: np.sqrt(x + d), np.hypot, lambda x, d: x + 1e-2 * np.exp(-x / d)],
+    ids=["pole", "root", "corner", "decay"],
+)
+def test_what_sums_miss_of_a_layer_is_told(layer, n):
+    """A narrow layer next to an end shows in the last coefficients alone, which fall more slowly than those of the rest,
+    and come and go: it is told to a factor of three."""
+    (share, weight, projection), (fine, exact, _) = graded_gauss(n), graded_gauss(400)
+    for d in np.geomspace(1e-4, 1e-1, 13):
+        values = layer(share, d)
+        missed = abs(exact @ layer(fine, d) - weight @ values)
+        assert missed <= 3 * left_out(projection, values[:, None])[0] + 1e-15, d

@@ -21,7 +21,7 @@ from .strips import SolvedStrips
 _SHARE, _CHUNK = 0.1, 4096
 #: what is left in a mean over contacts of the errors of a law, and of sums over parts: most panels and parts err by a hundredth
 #: of their bounds, which have to hold for each, and along a law's pieces errors change sign
-_CANCELLED, _SUMMED = 0.1, 0.3
+_CANCELLED, _SUMMED = 0.08, 0.3
 #: nodes of a part, tried in turn
 _NODES = (12, 20, 34, 54, 84)
 

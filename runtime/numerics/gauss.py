@@ -19,6 +19,8 @@ from .chebyshev import fall_ratio
 from .rounding import EPS
 
 GENTLE, STEEP = 2, 4
+#: share of the last coefficients that sums miss at least: once they are those of a layer next to an end they fall no faster
+_TAIL = 0.03
 
 
 def graded_share(t: np.ndarray, low: int, high: int) -> np.ndarray:
@@ -49,7 +51,7 @@ def left_out(projection: np.ndarray, values: np.ndarray) -> np.ndarray:
     known = projection[[n // 2 - 1, n // 2, n // 2, n - 3, n - 2, n - 1]]
     c = np.abs(summed(known, values)) - 16 * EPS * np.abs(values).max(axis=0)
     middle, last = np.maximum(c, 0.0).reshape(2, 3, *values.shape[1:]).max(axis=1)
-    return last * fall_ratio(last, middle) ** 1.5
+    return last * np.maximum(fall_ratio(last, middle) ** 1.5, _TAIL)
 
 
 def summed(weights: np.ndarray, values: np.ndarray) -> np.ndarray:
