@@ -1,7 +1,7 @@
 """First crossings of sums of exponentials and one harmonic, for a whole batch at once, approached from one side.
 
-Every event of a strip is a zero of ``G(s) = constant + a (cos s - 1) + b sin s + sum_i c_i exp(-(s - start) r_i)``, which keeps
-its digits at the crest. Its zeros lie in no closed-form arcs. But where G > 0 two parabolas bound it from below from there on:
+Every event of a strip is a zero of ``G(s) = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)``. With several times
+its zeros lie in no closed-form arcs. But where G > 0 two parabolas bound it from below at all later phases:
 
 * a decaying term with ``c > 0`` is convex: its tangent lies below it; one with ``c < 0`` only rises. So with the slopes
   of the harmonic and of the positive terms alone G lies above ``G + slope t - hypot(a, b) t^2/2``;
@@ -26,7 +26,7 @@ _MAX_STEPS = 600
 
 @dataclass(slots=True)
 class Field:
-    """``constant + a (cos s - 1) + b sin s + sum_i c_i exp(-(s - start) r_i)``: (N,) each, and (n, N) for ``c`` and ``r``."""
+    """``constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)`` of N strips: (N,), and (n, N) for ``c`` and ``r``."""
 
     start: np.ndarray
     constant: np.ndarray
@@ -83,7 +83,7 @@ def _safe_step(ahead, r, terms, first: bool):
     cosine, sine = np.cos(now), np.sin(now)
     above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", terms, np.exp((start - now) * r))
     harmonic = b * cosine - a * sine
-    value = constant - 2 * a * np.sin(0.5 * now) ** 2 + b * sine + above + below
+    value = constant + a * cosine + b * sine + above + below
     slope = harmonic - fast - slow
     low, room = value, height - value
     if first:

@@ -79,7 +79,8 @@ def march(kernel, s: ModeStrips, engaged, z, start, length=TWO_PI) -> Period:
 def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     """Follow points through the zone they are in, entered with the ``pressure`` (None or NaN where it follows from the state).
 
-    Returns its end, change of the state, the next letter (-1: at the ``limit``), the pressure then (NaN: onset), what is lost."""
+    Returns its end, the change of the state, the letter of the next (-1: at the ``limit``), the pressure with which that begins
+    (NaN after an onset), and which points were not followed to the end."""
     n, m = z.shape
     contact = letter == CONTACT
     p = np.where(letter == ADHESION, -s.p_0, 0.0)
@@ -90,25 +91,23 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
         level = (kernel.profile(start[touching], pressed.D) - z[:, touching].sum(axis=0)) / pressed.m.J_0
         p_in = level if pressure is None else np.where(np.isnan(pressure[touching]), level, pressure[touching])
         entry = kernel.overstress(z[:, touching], p_in, pressed.m)
+        f.constant[touching] = pressed.p_0 + (pressed.D - 1)
         f.a[touching], f.b[touching] = kernel.storage(pressed.m), -kernel.loss(pressed.m)
-        f.constant[touching] = pressed.p_0 + pressed.D + (f.a[touching] - 1)
         f.c[:, touching] = entry - kernel.saturated_overstress(start[touching], pressed.m)
         f.r[:, touching] = rates(pressed.m.alpha)
     if apart.size:
-        f.constant[apart] = p[apart] - open_.D - np.where(letter[apart] == FREE, open_.delta_0, 0.0)
+        f.constant[apart] = p[apart] - (open_.D - 1) - np.where(letter[apart] == FREE, open_.delta_0, 0.0)
         f.a[apart] = -1.0
         f.c[:, apart] = z[:, apart] - open_.m.J * p[apart]
         f.r[:, apart] = rates(open_.m.beta)
     if pressure is not None:
-        # contact that is entered presses, adhesion then opens, from zero. Where rounding says no, it does so from where it rises
-        # through that; and a gap that closes by rounding alone has not
-        sine, begins = np.sin(start), (letter != FREE) & (pressure == -s.p_0)
-        rounded = np.where(contact, 0.0, EPS * (1 + np.abs(s.D) + s.p_0))
-        f.constant = np.where(begins, 2 * f.a * np.sin(0.5 * start) ** 2 - f.b * sine - f.c.sum(axis=0) + rounded, f.constant)
-        sinks = np.flatnonzero(begins & (f.b * np.cos(start) - f.a * sine <= (f.c * f.r).sum(axis=0)))
+        # contact that is entered presses, adhesion then opens: where rounding says no, from where it rises through the limit
+        slope = f.b * np.cos(start) - f.a * np.sin(start) - (f.c * f.r).sum(axis=0)
+        sinks = np.flatnonzero((letter != FREE) & (pressure == -s.p_0) & (slope <= 0))
         if sinks.size:
             f.rise(sinks, np.minimum(limit, start + _BRIEF))
-    height = np.where((letter == ADHESION) & (not s.bare), s.delta_0, np.inf)
+    releasable = (letter == ADHESION) & (not s.bare)
+    height = np.where(releasable, s.delta_0, np.inf)
     end, which = first_crossing(f, limit, height)
     change = np.empty((n, m))
     if touching.size:
@@ -125,8 +124,9 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     onto = np.where(s.snaps, CONTACT, ADHESION)
     met = np.where(contact, ADHESION, np.where(letter == FREE, onto, np.where(which == LOWER, CONTACT, FREE)))
     following = np.where((which == NONE) | (which == LOST), -1, met)
+    snapped = (letter == FREE) & (following == CONTACT)
     pressure = np.where(letter == FREE, np.nan, -s.p_0)
-    np.divide(-s.delta_0, s.m.J_0, out=pressure, where=(letter == FREE) & (following == CONTACT))
+    np.divide(-s.delta_0, s.m.J_0, out=pressure, where=snapped)
     return end, change, following, pressure, which == LOST
 
 
