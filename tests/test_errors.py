@@ -248,6 +248,7 @@ def test_a_number_may_be_an_array_of_xarray_without_dimensions_and_angles_a_list
 
 
 def test_adhesion_is_shown_as_the_call_that_makes_it():
-    for law in (ADHESION, hystrip.Dugdale(p_0=15300.0, delta_0=3.3e-9), hystrip.Dugdale(gamma=0.05, p_0=5e5)):
+    greatest = hystrip.Dugdale(p_0=1e40, delta_0=1.1e-9)  # gamma over delta_0 is a rounding beyond
+    for law in (ADHESION, greatest, hystrip.Dugdale(p_0=15300.0, delta_0=3.3e-9), hystrip.Dugdale(gamma=0.05, p_0=5e5)):
         assert eval(repr(law), vars(hystrip)) == law
     assert repr(ADHESION) == "Dugdale(gamma=2.5e-05, delta_0=1e-08)"

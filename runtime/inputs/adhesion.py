@@ -78,7 +78,7 @@ class Dugdale:
 
     def __repr__(self):
         # of gamma and p_0 the one from which the other follows to the last digit
-        one = "gamma" if np.array_equal(_traction(np.asarray(self.gamma), np.asarray(self.delta_0)), self.p_0) else "p_0"
+        one = "gamma" if np.array_equal(_quotient(self.gamma, self.delta_0), self.p_0) else "p_0"
         return f"Dugdale({one}={getattr(self, one)!r}, delta_0={self.delta_0!r})"
 
     def _key(self):
@@ -91,10 +91,15 @@ class Dugdale:
         return hash(self._key())
 
 
+def _quotient(gamma: Any, by: Any) -> np.ndarray:
+    """``gamma`` over one of its factors, which gives the other; zero without adhesion."""
+    with np.errstate(over="ignore", under="ignore"):  # refused by name
+        return np.divide(gamma, by, out=np.zeros(np.shape(gamma)), where=np.greater(by, 0))
+
+
 def _traction(gamma: np.ndarray, delta: np.ndarray) -> np.ndarray:
     """``gamma/delta_0``, Pa; zero without adhesion."""
-    with np.errstate(over="ignore"):  # refused below, by name
-        p = np.divide(gamma, delta, out=np.zeros(gamma.shape), where=delta > 0)
+    p = _quotient(gamma, delta)
     beyond = p > LARGEST
     if beyond.any():
         raise InputError("adhesion.gamma", float(gamma[beyond].flat[0]), f"gamma/delta_0 must be a traction up to {LARGEST:g} Pa")
@@ -108,8 +113,7 @@ def _range(gamma: np.ndarray, p_0: np.ndarray) -> np.ndarray:
     if one.any():
         allowed = "gamma = p_0 delta_0: both zero, or both above zero"
         raise InputError("adhesion.gamma, adhesion.p_0", (float(gamma[one].flat[0]), float(p_0[one].flat[0])), allowed)
-    with np.errstate(over="ignore", under="ignore"):  # refused below, by name
-        delta = np.divide(gamma, p_0, out=np.zeros(gamma.shape), where=p_0 > 0)
+    delta = _quotient(gamma, p_0)
     beyond = (delta > LARGEST) | ((delta < SMALLEST) & (gamma > 0))
     if beyond.any():
         allowed = f"gamma/p_0 must be a range from {SMALLEST:g} to {LARGEST:g} m"
