@@ -1,5 +1,6 @@
 """Solvers that ``hystrip regenerate`` has written outside the package."""
 
+import copyreg
 import hashlib
 import importlib
 import importlib.util
@@ -22,6 +23,15 @@ class Solver:
 
     def __init__(self, folder: Path, models: dict[str, ModuleType]):
         self.folder, self.models = folder, models
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Solver) and self.models == other.models
+
+    def __hash__(self) -> int:
+        return hash(self.folder)
+
+    def __reduce__(self) -> Any:
+        return _same, _origin(self.kernel(min(self.models)))
 
     def __repr__(self) -> str:
         return f"Solver({str(self.folder)!r}, models={sorted(self.models)})"
@@ -97,6 +107,30 @@ def solver_key(folder: str | os.PathLike[str] | None) -> str:
         return ""
     files = sorted(Path(folder).glob("*.py"))
     return hashlib.sha256(b"".join(file.name.encode() + file.read_bytes() for file in files)).hexdigest()
+
+
+def _origin(kernel: ModuleType) -> tuple[str, str]:
+    """The folder of a loaded module and its package, whose name has the hash of the code in it."""
+    return str(Path(kernel.__file__ or "").parent), kernel.__package__ or ""
+
+
+def _same(folder: str, package: str) -> Solver:
+    """Unpickled: the solver in a folder if its code is still the same, else ``InputError``."""
+    solver = load_solver(folder)
+    if solver.kernel(min(solver.models)).__package__ != package:
+        raise InputError("solver", folder, "a solver with the code that this was made with; it was changed since")
+    return solver
+
+
+def _same_material(folder: str, package: str, model: str, given: dict[str, Any]) -> ModelMaterial:
+    return _same(folder, package).material(model, **given)
+
+
+def _pickled(material: ModelMaterial) -> Any:
+    return _same_material, (*_origin(material.kernel), material.kernel.__name__.rpartition(".")[2], material.given)
+
+
+copyreg.pickle(ModelMaterial, _pickled)
 
 
 def _imported(name: str, init: Path) -> ModuleType:

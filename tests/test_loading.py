@@ -1,7 +1,9 @@
 """Solvers outside the package: loading, versions, permission, scenes and the command line."""
 
+import copy
 import json
 import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -43,6 +45,33 @@ def folder(tmp_path):
     target = tmp_path / "my_solver"
     shutil.copytree(Path(hystrip.generated.__file__).parent, target, ignore=shutil.ignore_patterns("__pycache__", "audit"))
     return target
+
+
+def test_what_holds_a_loaded_solver_is_pickled_with_its_folder(folder, tmp_path):
+    solver = hystrip.load_solver(folder)
+    series = hystrip.Prony(1e9, MODULI, TIMES, solver=solver)
+    held = (
+        solver,
+        series,
+        hystrip.HalfSpace(1e6, 0.5, MODULI, TIMES, solver=solver),
+        solver.material("generalised", K=1e9, K_i=MODULI, tau_i=TIMES),
+        hystrip.solve_strip(series, ADHESION, l=1e-5, A=1e-6, D=0.0, V=1e-3, edge="constitutive"),
+    )
+    pickled = [pickle.dumps(each) for each in held]
+    again = [pickle.loads(each) for each in pickled]
+    assert again[:-1] == list(held[:-1]) and list(map(hash, again[:-1])) == list(map(hash, held[:-1]))
+    assert again[-1].p_mean == held[-1].p_mean and again[-1].pressure(1e-6) == held[-1].pressure(1e-6)
+    assert copy.deepcopy(held[3]) == held[3]
+    # in another process, which has not loaded it yet
+    (tmp_path / "material").write_bytes(pickled[3])
+    code = f"import pickle; print(pickle.load(open({str(tmp_path / 'material')!r}, 'rb')))"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert said.stdout.strip() == repr(held[3])
+    # other code may give other numbers
+    (folder / "stable.py").write_text((folder / "stable.py").read_text() + "\n# changed\n")
+    for each in pickled[:-1]:
+        with pytest.raises(InputError, match=r"solver.*changed since"):
+            pickle.loads(each)
 
 
 def test_a_loaded_solver_solves_as_the_package_does(folder):

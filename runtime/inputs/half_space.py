@@ -120,7 +120,7 @@ class HalfSpace:
         return Prony(per_modulus * self.E, moduli, self.times, self.solver, shift=self.shift, fit=self.fit)
 
     def _key(self):
-        return (self.E, self.nu, self.moduli, self.times, id(self.solver), self.shift, self.fit)
+        return (self.E, self.nu, self.moduli, self.times, self.solver, self.shift, self.fit)
 
     def __eq__(self, other):
         return isinstance(other, HalfSpace) and self._key() == other._key()

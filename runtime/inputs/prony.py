@@ -172,7 +172,7 @@ class Prony:
 
     def _key(self):
         numbers = (np.asarray(v).tobytes() for v in (self.K, *self.moduli, *self.times))
-        return (type(self), *numbers, id(self.solver), self.shift, self.fit)
+        return (type(self), *numbers, self.solver, self.shift, self.fit)
 
     def __eq__(self, other):
         return isinstance(other, Prony) and self._key() == other._key()
