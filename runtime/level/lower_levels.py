@@ -48,22 +48,22 @@ class LowerLevelLaws:
     scales: np.ndarray
 
     def over_breaks(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
+        """Greatest pressure of each strip, then that at its entry, over the law's breaks, (m, k), Pa; NaN without contact."""
         out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
         index, contact = strips.touching
         if index.size:
             breaks = self.laws.breaks[group[index]]
             # many contacts begin at ``-p_0``, all along y, where a law may let go too: rounding must not decide which pass that
-            least = contact.p_least + 1e-9 * np.abs(contact.p_least)
-            out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, least)], axis=1)
+            entry = contact.p_entry + 1e-9 * np.abs(contact.p_entry)
+            out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, entry)], axis=1)
         return out
 
     @staticmethod
     def crossed(over_breaks: np.ndarray) -> np.ndarray:
         """Codes (m,) of the law breaks that each strip's pressure passes, from its ``over_breaks``: how many breaks its greatest
-        exceeds, and how many it exceeds all along (or at entry)."""
-        top, least = (np.count_nonzero(half > 0, axis=1) for half in np.split(over_breaks, 2, axis=1))
-        return np.where(np.isnan(over_breaks[:, 0]), 0, 1 + top + (over_breaks.shape[1] // 2 + 1) * least)
+        exceeds, and how many it exceeds at entry."""
+        top, entry = (np.count_nonzero(half > 0, axis=1) for half in np.split(over_breaks, 2, axis=1))
+        return np.where(np.isnan(over_breaks[:, 0]), 0, 1 + top + (over_breaks.shape[1] // 2 + 1) * entry)
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""
@@ -85,7 +85,7 @@ class LowerLevelLaws:
         saturated, jump = row[saturates], j[saturates]
         total[saturated, :-1] += (downs - ups)[saturated, jump, None] * laws.saturated[group[saturated], 1:]
         # where a break lies is known as well as the law's pressures: that much of the jump may fall on the wrong side
-        crossing = ~saturates & (breaks[row, j] > contact.p_least[row])
+        crossing = ~saturates & (breaks[row, j] > np.minimum(contact.p_entry, contact.p_exit)[row])
         np.add.at(total[:, -1], row[crossing], self._misplaced(contact, group, row[crossing], j[crossing], ups, downs))
         inside = np.zeros(breaks.shape, bool)
         inside[row, j] = ~saturates
@@ -100,9 +100,10 @@ class LowerLevelLaws:
         jumps, known_to = self.laws.at_breaks
         shift = known_to[group[row], j] / contact.unit[row]
         reach = np.zeros(row.size)
-        for phase in (ups[row, j], downs[row, j]):
+        for phase, end in ((ups[row, j], contact.p_entry[row]), (downs[row, j], contact.p_exit[row])):
             slope = np.abs(contact.slope(row, phase))
-            reach += np.minimum(np.divide(shift, slope, out=np.full(row.size, np.inf), where=slope > 0), np.sqrt(shift))
+            near = np.minimum(np.divide(shift, slope, out=np.full(row.size, np.inf), where=slope > 0), np.sqrt(shift))
+            reach += np.where(self.laws.breaks[group[row], j] > end, near, 0.0)
         return jumps[group[row], j] * np.minimum(reach, (downs - ups)[row, j])
 
     def _integrate(self, contact: Contact, group, every: Parts, total) -> None:

@@ -26,7 +26,8 @@ class Contact:
     """Contact intervals of solved strips in phase, with the pressure in Pa inside them, arrays (m,).
 
     ``b``, ``a``: first and last phase (of saturated contact: a period around its peak), ``top``: phase of the peak ``p_peak``;
-    ``p_least``: pressure just after entry (without T_sigma it steps there); in saturated contact the least.
+    ``p_entry``: pressure just after entry (it steps there without T_sigma, and where a strip snaps into contact); ``p_exit``: as
+    contact ends; of saturated contact both are the least.
     """
 
     def __init__(self, foundation: Foundation, strips, solved: Solved, unit: np.ndarray, flat: np.ndarray):
@@ -48,10 +49,11 @@ class Contact:
         self.top[part] = falling_root(lambda phase, sub: self._excess(part[sub], phase)[1], self.b[part], self.a[part])
         self.p_peak = self.pressure(every, self.top)
         entered = self.b + 1e-12 * (self.a - self.b)
-        self.p_least = self.pressure(every, np.where(self.full, self.centre - np.pi, entered))
+        self.p_entry = self.pressure(every, np.where(self.full, self.centre - np.pi, entered))
         # the same for all, to the last digit, where it does not step
         rises = ~self.full & (compliance > 0)
-        self.p_least[rises] = ((self.q_b - strips.p_0) * unit)[rises]
+        self.p_entry[rises] = ((self.q_b - strips.p_0) * unit)[rises]
+        self.p_exit = np.where(self.full, self.p_entry, -strips.p_0 * unit)
 
     def _excess(self, rows: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Pressure above -p_0 in partial contact, in the strip's own unit, and its slope, at phases (m,) or (nodes, m)."""
