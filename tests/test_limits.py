@@ -175,6 +175,13 @@ def test_flat_strip(edge, branch):
     assert np.array_equal(s.gap(0.3), np.broadcast_to(np.where(s.regime == "c", 0.0, s.p_mean - D), s.p_mean.shape))
 
 
+@pytest.mark.parametrize("unit", [1.0, 1e-9, 1e-18])
+def test_a_flat_strip_knows_no_length_but_its_own(unit):
+    """Contact ends where the pressure is -p_0, to rounding, however small the penetration is."""
+    D = -0.3 * unit * (1 + np.array([1e-14, -1e-14]))
+    assert strip(D, p_0=0.3 * unit, delta_0=0.1 * unit, A=0.0).regime.tolist() == ["a", "c"]
+
+
 def test_nearly_flat_strip_tends_to_the_flat_one():
     D = np.array([1.0, -0.15, -0.35, -5.0])
     flat = strip(D, p_0=0.3, A=0.0)

@@ -23,7 +23,8 @@ def solve_at_rest(kernel, strips, flat, unloading: bool) -> Solved:
     p_0, D, record = strips.p_0, strips.D, Record(kernel, strips)
     # without adhesion contact ends to free, and the reach of adhesion has no part in it
     reach = np.where(p_0 > 0, strips.delta_0, 0.0)
-    valley, noise = D - np.where(flat, 0.0, 2.0), EPS * (2 + np.abs(D) + p_0)
+    height = np.where(flat, 0.0, 2.0)
+    valley, noise = D - height, EPS * (height + np.abs(D) + p_0)
     released = -valley - p_0 > reach
     free = (D <= -reach) & (released | (not unloading))
     full, hold = (~free & ~released & holds for holds in (valley >= -p_0 - noise, (valley < -p_0 - noise) & (D <= -p_0)))
