@@ -140,8 +140,8 @@ class LevelBatch:
         return foundation_of(self.material).strips(self.level.k * V, D / A, p_0, delta_0, self.edge)
 
     def evaluate(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Of the strips at ``theta``: codes (m,), values to average (m, q), greatest and least pressures over the breaks of the
-        law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
+        """Of the strips at ``theta``: codes (m,), values to average (m, q), pressures, the greatest and at entry, over breaks of
+        the law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
         strips = self.solve(column, theta)
         s, (codes, over_breaks) = strips.solved, self._codes(strips, column)
         values = np.column_stack((strips.p_mean, strips.tau_mean, s.contact_fraction, s.adhesion_fraction))
