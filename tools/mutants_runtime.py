@@ -162,6 +162,13 @@ MUTANTS = (
         "test_lower_levels.py",
     ),
     Mutant(
+        "a jump is not misplaced where contact passes it at its exit only",
+        "level/lower_levels.py",
+        "np.minimum(contact.p_entry, contact.p_exit)[row]",
+        "contact.p_entry[row]",
+        "test_lower_levels.py",
+    ),
+    Mutant(
         "a tenth of a law's error in what it carries",
         "level/law.py",
         "return self._cells(u, which), self._errors",
