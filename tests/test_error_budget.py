@@ -175,10 +175,11 @@ def constant(error):
     return Errors(np.zeros(1), error[None])
 
 
-def _branch(p_low, p_high, error):
-    """A branch along which pressure and three other quantities rise evenly."""
+def _branch(p_low, p_high, error, friction=1.0):
+    """A branch along which pressure and two other quantities rise evenly, and friction by so much per pressure."""
     middle, half = 0.5 * (p_high + p_low), 0.5 * (p_high - p_low)
-    return rising([Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), constant(np.full(4, error)))])[0][0]
+    rise = np.array([1.0, friction, 1.0, 1.0])
+    return rising([Piece(p_low, p_high, np.array([middle * rise, half * rise]), constant(np.full(4, error)))])[0][0]
 
 
 @pytest.mark.parametrize("unloading", [True, False])
@@ -191,6 +192,13 @@ def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
     assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
     # friction goes with the pressure: before the break and beyond it, wherever that is, it differs by as much
     assert jumps[1.0] == pytest.approx(2 * errors[1.0], rel=1e-3)
+
+
+def test_friction_may_jump_by_most_right_at_a_break():
+    """It falls from 3 Pa at pull-off, which is known to 0.5 Pa: half a pascal further on it is less, but no less is lost."""
+    segments, ends = segments_of([_branch(-3.0, -1.0, 0.5, friction=-1.0)], np.full((1, 4), 1e-9)), np.array([[-3.0], [-1.0]])
+    laws = Laws([segments], *ends, np.zeros((1, 4)), np.full(1, np.inf), np.zeros(1, int), True)
+    assert laws.at_breaks[0][0, 0] == pytest.approx(3.0, rel=1e-6)
 
 
 def test_a_break_that_is_hardly_known_may_hide_as_much_friction_as_is_around_it():

@@ -95,12 +95,15 @@ class Laws:
             errors = [np.where(np.abs(end - p) <= near, error, 0.0) for end, error in zip(ends, known, strict=True)]
             left, entered = errors[::-1] if self.unloading else errors
             known_to[group, j] = shift = np.where(left > 0, left, entered)
-            # from before all pressures where the break may be to beyond them: frictions may rise steeply there
-            places = zip(sides, (p - shift, p + shift), strict=True)
-            below, above = (self.smooth(group, interval, at[None])[0][self.frictions, 0] for interval, at in places)
-            below = np.where(p > self.pull_off[group], below, 0.0)
-            above = np.where(p < self.p_sat[group], above, self.saturated[group][:, 1 + self.frictions].T)
-            jumps[group, j] = np.abs(above - below).sum(axis=0)
+            # at the break, and from before all pressures where it may be to beyond them: frictions may be steep there
+            changes = []
+            for reach in (0.0, shift):
+                places = zip(sides, (p - reach, p + reach), strict=True)
+                below, above = (self.smooth(group, interval, at[None])[0][self.frictions, 0] for interval, at in places)
+                below = np.where(p > self.pull_off[group], below, 0.0)
+                above = np.where(p < self.p_sat[group], above, self.saturated[group][:, 1 + self.frictions].T)
+                changes.append(np.abs(above - below).sum(axis=0))
+            jumps[group, j] = np.maximum(*changes)
         return jumps, known_to
 
     @cached_property
