@@ -84,7 +84,8 @@ def _depths(result: Any, i: int, V: float, most: float) -> np.ndarray:
     """Penetrations from no contact to the one that carries ``most`` (Pa), in three even pieces."""
     a, level, K = result.adhesion, result.levels[i], result.material.at_wavelength(result.levels[i].l).K
     full = saturated_level(result.material, a, level, np.array([V]), result.branch).D_sat[0]
-    low = -reach(a, K)
+    # a free foundation touches first within reach of the adhesion alone
+    low = -reach(a, K) if result.branch == "unloading" else -a.delta_0
     # at high speed saturation is far up, and what carries little lives near first contact
     near = low + min(2 * level.h + a.delta_0 + 2 * a.p_0 / K, full - low)
     ends = (low, near, full, max(full, most / K + 0.75 * level.h))
@@ -94,16 +95,20 @@ def _depths(result: Any, i: int, V: float, most: float) -> np.ndarray:
 
 def _carrying(p_mean: np.ndarray, pressure: np.ndarray, unloading: bool) -> np.ndarray:
     """Index of the penetration that best carries each pressure on its branch; -1 below pull-off."""
+    start = 0
     if unloading:
         reached = np.minimum.accumulate(p_mean[::-1])[::-1]
     else:
-        reached = np.maximum.accumulate(p_mean)
+        # as the first strips cling the pressure falls below zero: loading follows what comes after its minimum there
+        back = np.flatnonzero(np.maximum.accumulate(p_mean < 0) & (p_mean >= 0))
+        start = int(np.argmin(p_mean[: back[0] if back.size else None]))
+        reached = np.maximum.accumulate(np.where(np.arange(p_mean.size) < start, -np.inf, p_mean))
     above = np.clip(np.searchsorted(reached, pressure, side="right"), 1, p_mean.size - 1)
     low, high = reached[above - 1], reached[above]
     row = np.where(pressure - low <= high - pressure, above - 1, above)
     # where the curve turns back the branch jumps over it: only the side it jumps to carries this pressure
     row = np.where(p_mean[row] == reached[row], row, above - 1 if unloading else above)
-    return np.where(pressure < reached[0], -1, row)
+    return np.where(pressure < reached[start], -1, row)
 
 
 def _shares(regimes: np.ndarray, weight: np.ndarray, off: float) -> dict[str, float]:

@@ -105,6 +105,16 @@ def test_regimes_of_every_level_agree_with_the_result(branch):
     assert 0.2 < second.shares[PULLED_OFF] < 0.3
 
 
+@pytest.mark.parametrize("p_0", [90.0, 1e5])
+def test_regimes_of_a_lower_level_that_is_loaded_while_it_is_pulled(p_0):
+    """It holds on to a pull as its law does: less than the most that its first strips, clinging, pull."""
+    adhesion, levels = hystrip.Dugdale(p_0=p_0, delta_0=1.3e-7), [LEVELS[0], hystrip.Level(l=5.5e-7, h=4.3e-8)]
+    how = {"penetration": 2.5e-7, "velocity": 7e-6, "edge": "constitutive", "branch": "loading", "rtol": 1e-2}
+    result = hystrip.solve(MATERIAL, adhesion, levels, **how)
+    _, second = regimes_by_level(result, 0)
+    assert second.contact == pytest.approx(result.contact_by_level[1], rel=0.02)
+
+
 def test_regimes_of_no_contact_and_without_the_lower_level():
     assert regimes_by_level(solved(-1e5, 5e-3, LEVELS[:1]), 0) == []
     flat = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS[:2], penetration=-1e-6, velocity=1e-3)
