@@ -55,7 +55,10 @@ class Solver:
 
     def prony_kernel(self, times: int) -> ModuleType:
         """The module that solves a Prony series of so many times."""
-        fits = [m for m in self.models.values() if m.MODES in (None, times) and set(m.MATERIAL) == {"K", "K_i", "tau_i"}]
+        from hystrip.generated import generalised
+
+        wanted = generalised.MATERIAL, generalised.MODE_PARAMETERS  # with their units: another model may have the same names
+        fits = [m for m in self.models.values() if m.MODES in (None, times) and (m.MATERIAL, m.MODE_PARAMETERS) == wanted]
         if not fits:
             has = ", ".join(f"{m.MODEL} ({m.MODES})" for m in self.models.values())
             wanted = f"a solver for a Prony series of {times} different times; this one has {has}"

@@ -173,7 +173,7 @@ def solve_strip(
         V=V,
         p_0=adhesion.p_0,
         delta_0=adhesion.delta_0,
-        **parameters(material),
+        **{f"material.{name}": value for name, value in parameters(material).items()},
     )
     flat_in = [_flat(v, shape) for v in (wavelength, A, D, V, adhesion.p_0, adhesion.delta_0)]
     solved, strips, scales = foundation_of(material).flat(shape).solve(*flat_in, edge, branch)

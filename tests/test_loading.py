@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,9 @@ import pytest
 import hystrip
 import hystrip.generated
 from hystrip import InputError
+from hystrip.generated.modes import of_operators
+from hystrip.inputs.materials import kernel_of
+from hystrip.inputs.model import ModelMaterial
 from hystrip.orbit.foundation import foundation_of
 from hystrip.scene import parse_scene
 from hystrip.scene.errors import SceneError
@@ -135,6 +139,32 @@ def test_a_solver_for_another_number_of_times_is_refused(folder):
             V=1.0,
             edge="constitutive",
         )
+
+
+def test_a_model_with_the_names_of_a_prony_series_but_other_units_does_not_solve_one(folder):
+    module = folder / "generalised.py"
+    text = module.read_text()
+    assert '"K_i": ("Pa/m"' in text
+    module.write_text(text.replace('"K_i": ("Pa/m"', '"K_i": ("1"'))
+    with pytest.raises(InputError, match="a solver for a Prony series of 2 different times"):
+        kernel_of(hystrip.Prony(1e9, MODULI, TIMES, solver=hystrip.load_solver(folder)))
+
+
+@pytest.mark.parametrize("given", [{}, {"p_0": 1e-2}])
+def test_a_model_may_have_no_parameters_or_one_that_is_named_as_a_length_of_the_strip(given):
+    kernel = SimpleNamespace(
+        MODEL="own",
+        MODES=1,
+        MODE_PARAMETERS=(),
+        MATERIAL={name: ("s", "time") for name in given},
+        material_modes=lambda p_0=1e-2: of_operators((1.0, p_0), (1e-9, 1e-2 * 1e-9 * p_0)),
+    )
+    strips = {"l": 1e-5, "A": 1e-6, "D": np.linspace(-1e-6, 2e-6, 7), "V": 1e-3}
+    own, shipped = (
+        hystrip.solve_strip(material, ADHESION, **strips)
+        for material in (ModelMaterial(kernel, given), hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4))
+    )
+    assert own.p_mean == pytest.approx(shipped.p_mean, rel=1e-12)
 
 
 def test_another_interface_is_refused_and_says_how_to_regenerate(folder):

@@ -87,5 +87,5 @@ def modes_of(kernel: ModuleType, values: dict[str, np.ndarray]) -> tuple[np.ndar
     except ValueError as error:
         shown = {name: np.ravel(v).tolist() for name, v in values.items()}
         raise InputError("material", shown, f"an admissible material: {error}") from None
-    one = lambda a: a[..., None] if np.ndim(a) == 0 else a  # noqa: E731
+    one = lambda a: a[..., None] if np.ndim(modes.J_0) == 0 else a  # noqa: E731
     return np.asarray(K), type(modes)(*(one(np.asarray(a, float)) for a in modes))
