@@ -2,6 +2,7 @@
 
 import keyword
 from typing import Any
+from unicodedata import normalize
 
 import sympy as sp
 
@@ -24,6 +25,11 @@ def is_name(name: Any) -> bool:
     """Whether a module can have the name."""
     lower = isinstance(name, str) and name.isidentifier() and name.isascii() and name == name.lower()
     return lower and not keyword.iskeyword(name) and not name.startswith("_")
+
+
+def is_variable(name: str) -> bool:
+    """Whether a function can take an argument of that very name: Python reads letters in their plain form."""
+    return name.isidentifier() and not keyword.iskeyword(name) and name == normalize("NFKC", name) != "__debug__"
 
 
 def is_text(text: Any) -> bool:

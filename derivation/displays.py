@@ -1,9 +1,10 @@
 """What is displayed is what is proven: the LaTeX of every step is read back and compared with what the step derived.
 
 A display is a chain of equations, or values that stand for themselves. With the names bound to what was derived, all sides of
-a chain are one, and a value by itself is that of the step. Both are compared at random points (:mod:`.modes.numbers`), where an
-index means what it says. What the names mean: :mod:`.vocabulary` and :mod:`.modes.vocabulary`. Displays that state a condition, a
-definition or an integral over fields that are not in closed form have nothing to compare; ``displays.toml`` lists them.
+a chain are one, and a value by itself, or on a side of an inequality ``<=``, is that of the step. Both are compared at random
+points (:mod:`.modes.numbers`), where an index means what it says. What the names mean: :mod:`.vocabulary` and
+:mod:`.modes.vocabulary`. Displays that state a condition, a definition or an integral over fields that are not in closed form
+have nothing to compare; ``displays.toml`` lists them.
 """
 
 import random
@@ -72,13 +73,17 @@ def read_back(step: Derived, names: Names, point: Point) -> None:
         raise DerivationError(step.name, f"the display can be read: {problem}") from problem
     alone = iter(values_of(step))
     for statement in read:
-        sides = statement.sides
-        if len(sides) == 1 or step.name.startswith("regime "):  # a value by itself; a boundary equation, value = 0
-            sides = (sides[0], next(alone, None))
-        if any(sign not in ("=", r"\ge") for sign in statement.signs) or sides[1] is None:
+        sides, signs = statement.sides, set(statement.signs)
+        if signs == {r"\le"}:  # between values
+            pairs = [(side, next(alone, None)) for side in sides]
+        elif len(sides) == 1 or step.name.startswith("regime "):  # a value by itself; a boundary equation, value = 0
+            pairs = [(sides[0], next(alone, None))]
+        else:
+            pairs = [(sides[0], side) for side in sides[1:]]
+        if not (signs <= {"=", r"\ge"} or signs == {r"\le"}) or None in (other for _, other in pairs):
             raise DerivationError(step.name, f"the display {step.latex!r} is a chain of equations, or the values in order")
-        for side in sides[1:]:
-            _require_same(step.name, *map(_definite, (sides[0], side)), point)
+        for pair in pairs:
+            _require_same(step.name, *map(_definite, pair), point)
 
 
 def _require_same(name: str, one: sp.Expr, other: sp.Expr, point: Point) -> None:
@@ -91,7 +96,7 @@ def _require_same(name: str, one: sp.Expr, other: sp.Expr, point: Point) -> None
         for number in range(POINTS):
             at = point(f"{name} {number}", one.free_symbols | other.free_symbols)
             left, right = value(one, at), value(other, at)
-            if np.any(abs(left - right) > mpmath.mpf(10) ** -AGREED * (1 + abs(left))):
+            if not np.all(abs(left - right) <= mpmath.mpf(10) ** -AGREED * (1 + abs(left))):
                 raise DerivationError(name, READ, np.ravel(left - right)[0])
 
 

@@ -13,7 +13,7 @@ and their Jacobian along the chain.
 
 import sympy as sp
 
-from .check import zero
+from .check import holds, zero
 from .exact import in_half_angles
 from .flows import Flows
 from .functions import Formula, divisible, expm1, per_time, versine
@@ -117,6 +117,10 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
     R = sp.sqrt(1 + beta**2) / sp.sqrt(1 + alpha**2)
     one_harmonic = [
         zero("tan(phi) = (beta - alpha)/(1 + alpha beta)", sp.tan(2 * stated[3]) - tangent),
+        holds(
+            "and phi is an arc tangent: cos(phi) > 0, as that of R exp(i phi) with a storage above 0",
+            (2 * stated[3]).func == sp.atan,
+        ),
         zero("beta = tan(arctan(alpha) + phi)", (alpha + tangent) / (1 - alpha * tangent) - beta),
         zero(
             "R^2 = (1 + beta^2)/(1 + alpha^2) is what that makes of 1/(cos phi - alpha sin phi)^2",

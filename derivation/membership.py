@@ -49,7 +49,8 @@ def outside(model: Model) -> list[str]:
     """The reasons why a model is no linear law with constant coefficients and integer derivatives."""
     known = {parameter.symbol for parameter in model.parameters}
     reasons = []
-    for label, operator in (("Q", model.Q), ("P", model.P)):
+    series = (model.series.K, model.series.viscosity, model.series.time) if model.stated else ()
+    for label, operator in (("Q", model.Q), ("P", model.P), ("series", series)):
         for n, coefficient in enumerate(map(sp.sympify, operator)):
             what = f"{label}[{n}] = {coefficient}"
             foreign = sorted(map(str, coefficient.free_symbols - known - {rate}))

@@ -1,6 +1,5 @@
 """Where models come from: those that ship, constructors of others, and a user's file."""
 
-import keyword
 import os
 import runpy
 from collections.abc import Iterable, Sequence
@@ -13,18 +12,19 @@ from hystrip.files import path_of
 from hystrip.inputs.checks import sequence
 from hystrip.inputs.prony import MOST_TIMES
 
-from .arguments import A_NAME, A_TEXT, coefficients, is_name, is_text, require_words
+from .arguments import A_NAME, A_TEXT, coefficients, is_name, is_text, is_variable, require_words
 from .check import DerivationError
 from .model import Model, Parameter, Roots, Series
+from .modes.material import VISCOSITY, K_i, tau_i
 from .printing import FUNCTIONS, source
 from .symbols import K, T_eps, T_sigma, rate
 
 STEP = "model"
-TAKEN = ("stable", "modes", "audit", "certificates")  # files that stand beside the emitted solvers
+TAKEN = ("stable", "modes", "audit", "certificates", "index", "measured")  # files beside the emitted solvers and their pages
 CALLED = ("np", "positive", "nonnegative", "finite", "of_operators")  # by the emitted function that takes the parameters
+STORED = ("model", "solver", "shift", "fit")  # beside the parameters of a material in a file
 STIFFNESS = Parameter(K, "K", "Pa/m", "relaxed stiffness of the foundation per area")
 RETARDATION = Parameter(T_eps, "T_eps", "s", "retardation time: creep under constant pressure")
-K_i, tau_i = sp.symbols("K_i tau_i", positive=True)
 
 
 def prony_model(name: str, modes: int | None = None, title: str = "") -> Model:
@@ -46,7 +46,7 @@ def prony_model(name: str, modes: int | None = None, title: str = "") -> Model:
         ),
         Q=(),
         P=(),
-        series=Series(K, viscosity=K_i * tau_i / K, time=tau_i, arrays=(K_i, tau_i)),
+        series=Series(K, viscosity=VISCOSITY, time=tau_i, arrays=(K_i, tau_i)),
         count=modes,
     )
 
@@ -150,6 +150,9 @@ def require_names(models: Iterable[object]) -> None:
         for field in ("parameters", "Q", "P"):
             if not isinstance(getattr(model, field), (tuple, list)):
                 raise DerivationError(name, f"{field} of a model is a tuple, not {getattr(model, field)!r}")
+        for coefficient in (*model.Q, *model.P):
+            if not isinstance(coefficient, (int, float, sp.Expr)):
+                raise DerivationError(name, f"a coefficient of Q or P is a number or a SymPy expression, not {coefficient!r}")
         if name in TAKEN or name in seen:
             raise DerivationError(STEP, f"the name {name!r} is free: {', '.join((*TAKEN, *sorted(seen)))} are taken")
         seen.add(name)
@@ -165,8 +168,8 @@ def require_parameters(model: str, parameters: Iterable[object]) -> None:
         if not (is_text(parameter.unit) and is_text(parameter.meaning)):
             raise DerivationError(model, f"unit and meaning of a parameter are {A_TEXT}, not those of {parameter!r}")
         name, printed = parameter.name, source(parameter.symbol)
-        if name != printed or not name.isidentifier() or keyword.iskeyword(name) or name in (*CALLED, *seen):
-            taken = ", ".join((*CALLED, *sorted(seen)))
-            claim = f"a parameter is named like its symbol, and that is a Python name that is free: {taken} are taken"
+        taken = (*CALLED, *STORED, *sorted(seen))
+        if name != printed or not is_variable(name) or name in taken:
+            claim = f"a parameter is named like its symbol, and that is a Python name that is free: {', '.join(taken)} are taken"
             raise DerivationError(model, f"{claim}; {name!r} of the symbol {printed} is not such")
         seen.add(name)

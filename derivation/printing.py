@@ -34,6 +34,9 @@ class NumPySource(PythonCodePrinter):
     def _print_Pi(self, expr: sp.Expr) -> str:
         return "np.pi"
 
+    def _print_Exp1(self, expr: sp.Expr) -> str:
+        return "np.e"
+
     def _print_Rational(self, expr: sp.Rational) -> str:
         return f"{expr.p} / {expr.q}"
 

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from . import stable
-from .check import Claim, derived, zero
+from .check import Claim, derived, holds, zero
 from .flows import Flows
 from .functions import Formula
 from .kernel import Kernel, kernel
@@ -81,6 +81,7 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
         zero("about s = -arctan(beta), H is D - 1 + sqrt(1 + beta^2) cos", sp.radsimp(sp.expand(around - harmonic))),
         zero("H + e vanishes where that cosine is (1 - D - e)/sqrt(1 + beta^2)", harmonic.subs(sp.cos(angle), half) + excess),
         zero("the stable form says the same", [stated[0] - centre, sp.radsimp(sp.cos(stated[1]) - half)]),
+        holds("with a half between 0 and pi: an arc cosine", stated[1].func == sp.acos),
     ]
     exact = (centre, sp.acos(half))
     record = derived(load, exact, checks, "forcing_arc", emitted=("forcing_arc",))

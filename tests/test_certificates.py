@@ -1,4 +1,4 @@
-"""The numbers gate: every emitted function against its SymPy expression at 50 digits, below its stored bound."""
+"""The numbers gate: every emitted function against its SymPy expression at 420 digits, below its stored bound."""
 
 from __future__ import annotations
 
@@ -7,14 +7,19 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import mpmath
 import numpy as np
 import pytest
 from derived_once import derivation
 
 from hystrip.derivation import CertificateError, generated_folder, regenerate, stored_bounds
 from hystrip.derivation.certificates import measure
+from hystrip.derivation.certificates.grid import drawn
+from hystrip.derivation.certificates.measure import DIGITS, grid
 from hystrip.derivation.folder import CERTIFICATES
+from hystrip.derivation.modes.symbols import OF_STRIP
 from hystrip.derivation.regenerate import AIM, bounds_of, require_certified
+from hystrip.derivation.symbols import a, b, c, d, p_0
 from hystrip.errors import InputError
 from hystrip.generated import stable, standard_linear_solid
 
@@ -173,3 +178,11 @@ def test_every_function_that_a_mutant_of_what_is_emitted_gets_wrong_is_named() -
     assert beyond_bounds(kernels, standard_linear_solid, bounds) == ""
     mutated = {"loss": lambda *of: -true["loss"](*of), "means_c": lambda *of: (float("nan"), 0.0)}
     assert beyond_bounds(kernels, SimpleNamespace(**(true | mutated)), bounds) == "certificate of loss, means_c"
+
+
+@pytest.mark.parametrize("edges", [(d, b, a, c), (d, a, c), (d, c)])
+def test_functions_of_zones_of_adhesion_are_measured_with_adhesion(edges: tuple) -> None:
+    """All four points of some function were without, for two times, and a wrong sign of the traction had a certificate."""
+    with mpmath.workdps(DIGITS):
+        for count, index in grid((1, 2, 3, 6), 8):
+            assert drawn((*edges, *OF_STRIP), f"{len(edges)} {index}", count).values[p_0] > 0

@@ -37,8 +37,10 @@ from hystrip.derivation.certificates.certify import measure_regimes
 from hystrip.derivation.certificates.material import measure_material
 from hystrip.derivation.emit import emit
 from hystrip.derivation.modes.jumps import closures
+from hystrip.derivation.modes.material import prony_series
 from hystrip.derivation.modes.states import exact_modes
 from hystrip.derivation.modes.symbols import J_0, J, enter, eta, leave, share
+from hystrip.derivation.printing import source
 from hystrip.derivation.regenerate import AIM
 from hystrip.derivation.symbols import K
 from hystrip.generated import generalised, kelvin_voigt, modes
@@ -265,9 +267,60 @@ def test_numbers_that_make_no_passive_solid_are_refused_with_the_reason(Q, P, re
 def test_a_series_with_a_sign_that_is_not_known_is_refused() -> None:
     unknown = sp.Symbol("K_i", real=True)
     tau = sp.Symbol("tau", positive=True)
-    model = Model("bad", "Bad", KELVIN_VOIGT.parameters, KELVIN_VOIGT.Q, KELVIN_VOIGT.P, series=Series(K, unknown * tau / K, tau))
+    parameters = (*KELVIN_VOIGT.parameters, *(Parameter(each, each.name, "s", "of a branch") for each in (unknown, tau)))
+    model = Model("bad", "Bad", parameters, KELVIN_VOIGT.Q, KELVIN_VOIGT.P, series=Series(K, unknown * tau / K, tau))
     with pytest.raises(DerivationError, match="passive: eta_i"):
         derive(model)
+
+
+def test_a_series_that_is_not_that_of_the_operators_is_refused() -> None:
+    """The solver of the series was emitted, and the operators were not looked at."""
+    tau, eta = sp.symbols("tau eta", positive=True)
+    parameters = tuple(Parameter(symbol, symbol.name, "s", "a parameter") for symbol in (K, eta, tau))
+    own = Model("own", "Own", parameters, (sp.Integer(1), eta + tau), (1 / K, tau / K), series=Series(K, eta, tau))
+    assert prony_series(own).checks
+    for wrong in (
+        replace(own, Q=(sp.Integer(1), eta)),
+        replace(own, series=Series(K, eta, sp.Integer(0))),
+        replace(own, P=(2 / K, tau / K)),
+    ):
+        with pytest.raises(DerivationError, match="spring and branch are what the operators say"):
+            prony_series(wrong)
+
+
+def test_a_series_in_what_is_no_parameter_is_refused() -> None:
+    tau = sp.Symbol("tau", positive=True)
+    stated = Series(K, sp.Symbol("q", positive=True) * tau, tau, arrays=(tau,))
+    parameters = (KELVIN_VOIGT.parameters[0], Parameter(tau, "tau", "s", "times"))
+    with pytest.raises(DerivationError, match="depends on q, which is no parameter"):
+        derive(Model("bad", "Bad", parameters, (), (), series=stated))
+
+
+def test_operators_with_idle_branches_make_a_solid() -> None:
+    """Of two in five the equal roots of both operators came out in the wrong order, by a rounding, and were refused."""
+    draw = random.Random(7)
+    for _ in range(100):
+        n = draw.randint(1, 5)
+        tau = [10 ** draw.uniform(-5, 1) for _ in range(n)]
+        eta = [draw.choice((0.0, 10 ** draw.uniform(-2, 2))) for _ in range(n)]
+        P, Q = np.ones(1), np.zeros(n + 1)
+        for time in tau:
+            P = np.convolve(P, (1.0, time))
+        Q += P
+        for i in range(n):
+            rest = np.array((0.0, eta[i]))
+            for time in tau[:i] + tau[i + 1 :]:
+                rest = np.convolve(rest, (1.0, time))
+            Q += rest
+        stiffness, found = modes.of_operators(Q, P)
+        for rate in 10.0 ** np.arange(-1, 6):
+            exact = 1 + sum(e * 1j * rate / (1 + t * 1j * rate) for e, t in zip(eta, tau, strict=True))
+            branches = found.eta * 1j * rate / (1 + found.alpha * 1j * rate)
+            assert stiffness * (1 + np.sum(branches)) == pytest.approx(exact, rel=1e-11)
+
+
+def test_a_constant_of_the_operators_is_emitted_as_numpy_has_it() -> None:
+    assert source(sp.E * T_1) == "np.e * T_1" and source(sp.pi) == "np.pi"
 
 
 # -- a user's model -----------------------------------------------------------------------------------------------------------
@@ -330,6 +383,8 @@ def test_a_refused_model_leaves_nothing_behind(tmp_path: Path) -> None:
         ("MODELS = (3,)\n", "Model, not int"),
         (FILE.replace("my_rubber", "My rubber"), "lower-case Python name"),
         (FILE.replace("my_rubber", "stable"), "taken"),
+        (FILE.replace("my_rubber", "index"), "taken"),
+        (FILE.replace("my_rubber", "measured"), "taken"),
         (FILE.replace('my_rubber")', 'my_rubber", modes=0)'), "at least 1"),
         (FILE.replace('my_rubber")', 'my_rubber", modes=2.5)'), "modes: got 2.5; allowed: an integer"),
         (FILE + "MODELS = (MODEL,)\n", "not both"),
@@ -348,7 +403,7 @@ def test_a_file_that_imports_everything_declares_its_own_model(tmp_path: Path) -
     assert [model.name for model in load_model(file)] == ["my_rubber"]
 
 
-@pytest.mark.parametrize("name", ["tau", "1", "np", "lambda", "G"])
+@pytest.mark.parametrize("name", ["tau", "1", "np", "lambda", "G", "__debug__", "\u017f", "model", "fit"])
 def test_a_parameter_that_the_solver_could_not_take_is_refused(name: str) -> None:
     """It was emitted, with a body in another name than the argument, and failed where it was used."""
     symbol = T_1 if name in ("tau", "G") else sp.Symbol(name, positive=True)
@@ -419,6 +474,7 @@ def test_an_argument_that_cannot_be_used_is_named(call, message: str) -> None:
         (replace(KELVIN_VOIGT, name=5), "the name of a model is a lower-case Python name .*, not 5"),
         (replace(KELVIN_VOIGT, title=None), "the title of a model is text of one line .*, not None"),
         (replace(KELVIN_VOIGT, P=None), "P of a model is a tuple, not None"),
+        (replace(KELVIN_VOIGT, P=(1 / K, None)), "a coefficient of Q or P is a number or a SymPy expression, not None"),
         (replace(KELVIN_VOIGT, parameters=(replace(OF_ONE[0], meaning='a\n"""'),)), "unit and meaning of a parameter are text"),
     ],
 )

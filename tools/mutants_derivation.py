@@ -73,6 +73,15 @@ MUTANTS: tuple[Mutant, ...] = (
         "forcing",
     ),
     m("stable form", "stable.py", "rise**2 / 2", "-(rise**2) / 2", "contact_work"),
+    m("stable form", "stable.py", "(-sp.atan(beta), arc_half(", "(-sp.atan(beta), -arc_half(", "forcing_arc", "harmonics"),
+    m(
+        "stable form",
+        "events.py",
+        "sp.atan(loss_factor / STORAGE(alpha, beta)) / 2",
+        "sp.atan(loss_factor / STORAGE(alpha, beta)) / 2 + sp.pi / 2",
+        "excess_event",
+        "harmonics",
+    ),
     # closures and edge conditions
     m("closure", "jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step", "closures"),
     m("closure", "jumps.py", "step_w = chi * J * step", "step_w = (1 - chi) * J * step", "closures"),
@@ -227,6 +236,14 @@ MUTANTS: tuple[Mutant, ...] = (
     m("display", "flows.py", r"w(s) = p + (w_0 - p)", r"w(s) = p - (w_0 - p)", "relaxation flow", "displays"),
     m(
         "display",
+        "balance.py",
+        r"\frac{\beta}{2\pi} \left(e^{2\pi/\beta}",
+        r"\frac{\beta}{\pi} \left(e^{2\pi/\beta}",
+        "always engaged",
+        "displays",
+    ),
+    m(
+        "display",
         "multilevel.py",
         r"_{M-1} = \frac{1}{l^2} \iint p\,f_x\,dx\,dy + ",
         r"_{M-1} = \frac{1}{l^2} \iint p\,f_x\,dx\,dy - ",
@@ -255,6 +272,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "complete",
     ),
     # several relaxation times: law, jumps, zones, inequalities, displays, chain rule
+    m("modes", "modes/material.py", "VISCOSITY = K_i * tau_i / K", "VISCOSITY = K_i * tau_i", "foundation law", "modes"),
     m("modes", "modes/flows.py", "unknown + alpha * sp.diff", "unknown - alpha * sp.diff", "contact flow", "modes"),
     m("modes", "modes/states.py", "LEAVE = J_j * beta_j /", "LEAVE = J_j * beta_k /", "states", "modes"),
     m("modes", "modes/chain.py", "drive, forget = c_2 + c_1 -", "drive, forget = c_2 + c_1 +", "period map", "modes"),
@@ -360,6 +378,13 @@ def early(package: ModuleType) -> tuple[Any, Any, Any]:
     return strip, flows, part(package, "saturated").saturated(flows)
 
 
+def harmonics(package: ModuleType) -> None:
+    """What finds the events of a zone by one harmonic."""
+    _, flows, _ = early(package)
+    part(package, "zones").load(flows)
+    part(package, "events").excess_event(flows)
+
+
 def inequalities(package: ModuleType) -> None:
     """The table of regimes at its sample roots; what proves its equations is left out, they are not changed."""
     *_, full = early(package)
@@ -390,7 +415,8 @@ def displayed(package: ModuleType) -> None:
     whole_level, stacked = part(package, "level").level(full.threshold.value)
     printed = part(package, "level").printed_equation_16(whole_level[2].exact)
     kernels = (*part(package, "zones").rigid_profile(strip.u), *full.kernels, *whole_level)
-    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), stacked, printed]
+    engaged = part(package, "balance").always_engaged(flows)
+    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), stacked, printed, engaged]
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     displays, words = part(package, "displays"), part(package, "vocabulary")
     displays.displays(steps, {}, words.vocabulary(flows, field), words.BINDINGS, displays.of_one_time)
@@ -451,6 +477,7 @@ def beyond_bounds(kernels: Iterable[Any], solver: Any, bounds: dict[str, float])
 
 RUNS: dict[str, Callable[[ModuleType], str | None]] = {
     "derive": whole,
+    "harmonics": harmonics,
     "inequalities": inequalities,
     "print": printed,
     "displays": displayed,

@@ -39,7 +39,7 @@ FAR = (-30, 48)  # decades of a length or pressure of a strip, in its amplitude:
 WIDE = "1e-30 .. 1e48"
 SI = (-40, 40)  # decades of inputs in SI: no input may be beyond
 SI_WIDE = "1e-40 .. 1e40"
-TRACTION = f"0 or {WIDE}"
+TRACTION = f"0, unless adhesion begins, or {WIDE}"
 DOMAIN: dict[str, Range] = {
     "D": (
         lambda r: r.choice((0.0, signed(r, *FAR), signed(r, -9, 6), 1.0 + signed(r, -9, 0), r.uniform(-2.0, 3.0))),
@@ -96,6 +96,8 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
             exact[symbol] = np.array([mpmath.mpf(OF_STATES[0](draw)) for _ in range(modes)], dtype=object)
         else:
             exact[symbol] = mpmath.mpf(DOMAIN[name][0](draw))
+    if d in exact and p_0 in exact and not exact[p_0]:  # without traction there are no zones of adhesion
+        exact[p_0] = mpmath.mpf(log(draw, -2, 1))
     if p in exact and p_0 in exact:
         exact[p] = draw.choice((mpmath.mpf(0), -exact[p_0]))
     if T_sigma in exact:

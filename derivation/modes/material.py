@@ -10,6 +10,8 @@ from ..symbols import K, beta
 K_i, tau_i, eta_i = sp.symbols("K_i tau_i eta_i", positive=True)
 BRANCH = eta_i * rate / (1 + tau_i * rate)
 """What a branch adds to p/w over K."""
+VISCOSITY = K_i * tau_i / K
+"""Its eta_i, by its modulus and its time."""
 
 
 def foundation_law() -> Derived:
@@ -27,7 +29,7 @@ def foundation_law() -> Derived:
         zero("a dashpot answers w = exp(rate t) with e_i = w/(1 + tau_i rate)", branch.subs(answer).doit()),
         zero(
             "and its branch carries K eta_i rate/(1 + tau_i rate) w, eta_i = K_i tau_i/K",
-            sp.simplify(force - K * BRANCH.subs(eta_i, K_i * tau_i / K)),
+            sp.simplify(force - K * BRANCH.subs(eta_i, VISCOSITY)),
         ),
     ]
     return derived(foundation_law, (w - e, branch), checks)
@@ -38,12 +40,10 @@ def relaxed_stiffness(model: Model) -> Derived:
 
     .. math:: K = Q_0/P_0
     """
-    series = model.series
-    stiffness = sp.cancel(model.Q[0] / model.P[0]) if isinstance(series, Roots) else series.K
+    stiffness = model.series.K
     load, any_stiffness = sp.symbols("p stiffness", positive=True)
     checks = [
         zero("at rest no branch carries anything: p = K w", BRANCH.subs(rate, 0)),
-        holds("the K of the series is that of the operators", sp.cancel(series.K - stiffness) == 0),
         holds("a larger K deforms less: K is a stiffness", sp.diff(load / any_stiffness, any_stiffness).is_negative),
     ]
     return derived(relaxed_stiffness, stiffness, checks, latex=rf"K = {sp.latex(stiffness)}", correction=CORRECTIONS[1])
@@ -67,6 +67,8 @@ def prony_series(model: Model) -> Derived:
             series.time == 0 or sp.cancel(sp.limit(stated, rate, sp.oo) - series.K * series.viscosity / series.time) == 0,
         ),
     ]
+    if model.Q:
+        checks.append(zero("spring and branch are what the operators say: p/w = Q/P", series.K + stated - model.transfer()))
     return derived(prony_series, stated, checks, "Prony series")
 
 
