@@ -88,8 +88,10 @@ def audit_texts(
 
 def _readable_certificates(folder: Path) -> dict[str, Any]:
     try:
-        return read_certificates(folder)
-    except (ValueError, KeyError, TypeError):
+        stored = read_certificates(folder)
+        rows = [row.keys() for entry in stored.values() for row in entry["functions"].values()]
+        return stored if all(keys >= {"bound", "points", "domain"} for keys in rows) else {}
+    except (ValueError, KeyError, TypeError, AttributeError):
         return {}  # and the file is different from one
 
 

@@ -17,6 +17,7 @@ from hystrip.files import path_of
 CERTIFICATES = "certificates.json"
 AUDIT = "audit"
 MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the pages, which `hystrip audit` makes anew
+FIGURES = ("pictures", "tables", "versions")  # of a model in it
 
 
 def generated_folder() -> Path:
@@ -51,7 +52,7 @@ def read_certificates(folder: Path) -> dict[str, Any]:
 def stored_bounds(folder: str | os.PathLike[str] | None = None) -> dict[str, dict[str, float]]:
     """Bounds in ulp of the natural scale, by model and function."""
     stored = read_certificates(folder_of(folder, "folder"))
-    return {model: {name: row["bound"] for name, row in entry["functions"].items()} for model, entry in stored.items()}
+    return {model: {name: float(row["bound"]) for name, row in entry["functions"].items()} for model, entry in stored.items()}
 
 
 def read_measured(folder: Path) -> dict[str, Any]:
@@ -60,7 +61,9 @@ def read_measured(folder: Path) -> dict[str, Any]:
         stored = json.loads((folder / MEASURED).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
-    return stored if isinstance(stored, dict) else {}
+    entries = stored.values() if isinstance(stored, dict) else (None,)
+    whole = all(isinstance(entry, dict) and all(isinstance(entry.get(part), dict) for part in FIGURES) for entry in entries)
+    return stored if whole else {}
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from derived_once import audited, derivations, emitted
 
-from hystrip.derivation import MODELS, generated_folder
+from hystrip.derivation import MODELS, check, generated_folder
 from hystrip.derivation.drift import audit_texts, compare
 from hystrip.derivation.emit import emit
 from hystrip.derivation.folder import CERTIFICATES, MEASURED, write_files
@@ -100,6 +100,18 @@ def test_a_certificate_for_another_solver_is_drift(copy: Path) -> None:
     (record,) = drift(copy)
     added = " ".join(line for line in record.diff.splitlines() if line.startswith("+"))
     assert record.path == CERTIFICATES and "gap_after" in added and "hash" in added
+
+
+NO_FIGURES = (1, {"generalised": 1}, {"generalised": {"functions": 1}}, {"generalised": {"functions": {"gap_after": {}}}})
+
+
+@pytest.mark.parametrize("name", [CERTIFICATES, MEASURED])
+@pytest.mark.parametrize("text", ["{", "[1]", *(json.dumps({"models": each}) for each in NO_FIGURES)])
+def test_certificates_and_figures_that_are_none_are_drift(copy: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str):
+    monkeypatch.setattr("hystrip.derivation.drift.derivations_of", lambda *_: derivations())
+    monkeypatch.setattr("hystrip.derivation.drift.emit", lambda _: emitted())
+    (copy / name).write_text(text, encoding="utf-8")
+    assert name in {record.path for record in check(copy)}
 
 
 def test_text_does_not_depend_on_the_hash_seed() -> None:

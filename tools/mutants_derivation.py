@@ -53,6 +53,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("operator", "models.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
     m("operator", "models.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
     m("operator", "models.py", "Q=(sp.Integer(1), T_eps)", 'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))', "model"),
+    m("operator", "models.py", "viscosity=T_eps", "viscosity=2 * T_eps", "Prony series", "series"),
     m("operator", "strip.py", "(-V) ** n", "V ** n", "moving frame"),
     m("operator", "strip.py", "sp.cancel((q * (k * V) ** n)", "sp.cancel((q * (-k * V) ** n)", "dimensionless groups"),
     m(
@@ -378,6 +379,11 @@ def early(package: ModuleType) -> tuple[Any, Any, Any]:
     return strip, flows, part(package, "saturated").saturated(flows)
 
 
+def series(package: ModuleType) -> None:
+    """A model that states its operators and its series."""
+    part(package, "modes.material").prony_series(package.KELVIN_VOIGT)
+
+
 def harmonics(package: ModuleType) -> None:
     """What finds the events of a zone by one harmonic."""
     _, flows, _ = early(package)
@@ -477,6 +483,7 @@ def beyond_bounds(kernels: Iterable[Any], solver: Any, bounds: dict[str, float])
 
 RUNS: dict[str, Callable[[ModuleType], str | None]] = {
     "derive": whole,
+    "series": series,
     "harmonics": harmonics,
     "inequalities": inequalities,
     "print": printed,
