@@ -112,6 +112,12 @@ def test_no_line_through_the_pole_nor_across_pull_off(over_pressure):
     assert np.isnan(tau[np.flatnonzero(tau == off) + 1]).all()
 
 
+def test_points_of_a_level_that_stand_alone_are_not_joined():
+    sides = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS, pressure=[-1e5, 1e5], velocity=1e-3, rtol=1e-2)
+    for panel in sides.plot().axes:
+        assert all(len(line.get_xdata()) < 2 or line.get_linestyle() == "None" for line in panel.lines if line.get_marker() == ".")
+
+
 def test_no_line_over_velocity_through_the_pole_nor_across_pull_off():
     V = np.geomspace(1e-4, 1e-1, 13)
     held = hystrip.solve(MATERIAL, ADHESION, LEVELS[:1], penetration=5.5e-7, velocity=V, rtol=1e-2)

@@ -201,7 +201,7 @@ def _draw(
         seen = np.pad(np.isfinite(x + y), 1)
         alone = seen[1:-1] & ~seen[:-2] & ~seen[2:]  # of such a point no line would be drawn
         if alone.any():
-            panel.plot(x[alone], y[alone], ".", **style)
+            panel.plot(x[alone], y[alone], **style | {"marker": ".", "linestyle": "none"})
     if doubtful.size:
         panel.plot(doubtful, there, "o", markersize=4, markerfacecolor="none", color="black", zorder=4, label="not converged")
     undefined = pole and not pressure.any()
