@@ -126,6 +126,7 @@ def test_levels_are_drawn_on_the_scale_of_the_spectrum():
 
 
 FLAT = Scan(np.zeros((16, 16)), (1.0, 1.0))
+TILTED = Scan(0.33 + 0.1 * np.linspace(0, 1, 16)[:, None] + np.zeros((16, 16)), (1.0, 1.0))
 ROUGH = Scan(eq4([(1e-6, 1e-7)], 4e-6, 64), (4e-6, 4e-6), periodic=True)
 
 
@@ -144,6 +145,7 @@ ROUGH = Scan(eq4([(1e-6, 1e-7)], 4e-6, 64), (4e-6, 4e-6), periodic=True)
         (ROUGH, {"edges": [1e-9, 1e-10]}, "no roughness between 1e-09 and 1e-10 m"),
         (ROUGH, {"wavelength": "mean"}, "wavelength: got 'mean'"),
         (FLAT, {}, "no roughness"),
+        (TILTED, {}, "no roughness"),
     ],
 )
 def test_wrong_arguments(scan, options, said):

@@ -118,6 +118,7 @@ def test_units_of_coordinates_may_be_stated_one_by_one(files, tmp_path, head, si
     path = tmp_path / "scan.xyz"
     path.write_text(f"# Channel: Height\n# {head}{rows}", encoding="utf-8")
     scan = read_surface(path, unit=None if head.count("units") == 2 else "um")
+    assert f"heights in {'nm as the file says' if 'nm' in head else 'µm as given'}" in scan.units
     assert scan.sizes == pytest.approx((sizes, sizes)) and np.ptp(scan.heights) / height == pytest.approx(1)
 
 
@@ -229,10 +230,11 @@ def test_arguments_of_the_wrong_kind_are_named(files, options, said):
 
 
 def test_points_of_a_line_follow_each_other(files, tmp_path):
-    for name, x in (("unsorted", [0, 2, 1, *range(3, 20)]), ("repeated", [0, 1, 1, *range(3, 20)])):
+    turned = {"unsorted": [0, 2, 1, *range(3, 20)], "repeated": [0, 1, 1, *range(3, 20)], "reversed": np.arange(20)[::-1]}
+    for name, x in turned.items():
         path = tmp_path / f"{name}.xyz"
         np.savetxt(path, np.column_stack((x, np.sin(np.arange(20)))))
-        with pytest.raises(hystrip.InputError, match=rf"{name}.xyz, positions: got '1e-06 m after .*that grow from row to row"):
+        with pytest.raises(hystrip.InputError, match=rf"{name}.xyz, positions: got '-?1e-06 m after .*that grow from row to row"):
             read_surface(path, unit="um")
 
 
@@ -249,6 +251,15 @@ def test_gaps_and_uneven_steps_are_filled(files, tmp_path):
     topography.NonuniformLineScan(x, 0.1 * np.sin(20 * x), unit="mm").to_netcdf(str(tmp_path / "line.nc"))
     even = read_surface(tmp_path / "line.nc")
     assert even.heights.shape == (200,) and even.sizes[0] == pytest.approx(1e-3, rel=0.01)
+
+
+def test_gaps_of_a_line_are_filled_and_said(tmp_path):
+    pytest.importorskip("SurfaceTopography")
+    x = np.arange(100)
+    lacking = (x < 40) | (x >= 60)
+    np.savetxt(tmp_path / "line.txt", np.column_stack((x, np.sin(x)))[lacking])
+    with pytest.warns(hystrip.roughness.ScanWarning, match="21 % of the points were undefined"):
+        assert read_surface(tmp_path / "line.txt", unit="um").filled == pytest.approx(21 / 99)
 
 
 def test_large_gaps_are_warned_of_and_nothing_but_gaps_refused(files, run, tmp_path):

@@ -16,8 +16,8 @@ VARIANCE = 5 / 64
 GRADIENT = 6 / 5
 
 _WAVELENGTHS = ("gradient", "centre")
-#: a band with a smaller part of the variance is empty
-_NOTHING = 1e-12
+#: a band with a smaller part of the variance is empty, and one whose rms height is a smaller part of the heights is rounding
+_NOTHING, _ROUNDING = 1e-12, 1e-13
 #: spacings of the Fourier modes over which the taper of a scan spreads a wave
 _SPREAD = 1.5
 
@@ -99,7 +99,7 @@ def levels_of(
     wavelength : ``"gradient"``, as said above, or ``"centre"``, the geometric mean of the band's bounds
 
     The shortest wavelength is by default that of four points of the *coarser* direction: shorter waves along the finer one
-    are left out. A band with less than 1e-12 of the variance gives no level.
+    are left out. A band with less than 1e-12 of the variance, or of roundings of the heights alone, gives no level.
 
     Raises
     ------
@@ -136,7 +136,7 @@ def levels_of(
     height2 = add(variance)
     # of a surface's mean square gradient a cut sees half
     gradient2 = add(variance * np.sum(vectors**2, axis=0)) * (2 if scan.heights.ndim == 1 else 1)
-    kept = np.flatnonzero(height2 > _NOTHING * total)
+    kept = np.flatnonzero(height2 > max(_NOTHING * total, (_ROUNDING * np.abs(scan.heights).max()) ** 2))
     if not kept.size:
         problem = f"no roughness between {bounds[0]:.3g} and {bounds[-1]:.3g} m"
         raise InputError("scan", problem, "bands in which there is some")

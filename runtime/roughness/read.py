@@ -20,6 +20,8 @@ from .units import Units, lacks_lengths, units_of
 
 #: share of points that are filled without a warning: their roughness is missing from the levels
 _FEW = 0.02
+#: mean steps of a line beyond which a step is a gap, which holds waves that its levels count
+_GAP = 4.0
 #: a number with a decimal comma or without decimals, or an undefined one
 _NUMBER = re.compile(rb"[-+]?\d+(,\d+)?(e[-+]?\d+)?|nan|bad", re.IGNORECASE)
 #: a line of a matrix
@@ -44,7 +46,8 @@ def read_surface(
 
     Points that the instrument left undefined are filled by its harmonic interpolation, which is smooth: their share is
     in ``Scan.filled``, and beyond 2 % there is a :class:`ScanWarning`. A line with uneven steps is interpolated to even
-    ones. Text may have decimal commas. ``Scan.units`` says what heights and lengths were taken for.
+    ones; of steps longer than four mean ones the points count as undefined. Text may have decimal commas. ``Scan.units``
+    says what heights and lengths were taken for.
 
     Parameters
     ----------
@@ -179,14 +182,18 @@ def _factor(given: Any, where: str) -> float:
 
 def _even(topography: Any, units: Units, where: str) -> Scan:
     """The scan in metres, on an even grid without gaps."""
-    topography = topography.to_unit("m")
-    if not topography.is_uniform:
-        back = np.flatnonzero(np.diff(topography.positions()) <= 0)
+    topography, gaps = topography.to_unit("m"), 0.0
+    if topography.dim == 1:
+        x = topography.positions()
+        steps = np.diff(x)
+        back = np.flatnonzero(steps <= 0)
         if back.size:
-            value = f"{topography.positions()[back[0] + 1]:.6g} m after {topography.positions()[back[0]]:.6g} m"
+            value = f"{x[back[0] + 1]:.6g} m after {x[back[0]]:.6g} m"
             raise InputError(f"{where}, positions", value, "positions along the line that grow from row to row")
+        gaps = steps[steps > _GAP * steps.mean()].sum() / steps.sum()
+    if not topography.is_uniform:
         topography = topography.to_uniform(nb_points=len(topography.heights()))
-    filled = float(np.mean(np.ma.getmaskarray(topography.heights())))
+    filled = float(gaps + (1 - gaps) * np.mean(np.ma.getmaskarray(topography.heights())))
     if filled == 1:
         raise InputError(f"{where}, heights", "no defined point", "a scan with some")
     if filled:

@@ -73,7 +73,7 @@ def _stated(reader: Any, channel: Any, where: str) -> tuple[str | None, list[str
         lengths = [each and _known(each, where) for each in both[: channel.dim]]
     elif reader.format() == "asc":
         lengths = [heights or "nm"] * channel.dim
-    elif reader.format() == "xyz" and channel.unit is None:
+    elif reader.format() == "xyz":  # both stated, the reader has converted one to the other
         heights, lateral = _in_comments(where)
         lengths = [lateral] * channel.dim
     return heights, lengths
