@@ -5,6 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.dma import master_curve, read_isotherms
+from hystrip.dma.isotherms import repeats_differ
 
 SHIFT = hystrip.WLF(8.86, 101.6, 293.15)
 TIMES = np.geomspace(1e-9, 100, 23)
@@ -93,3 +94,8 @@ def test_reference_of_the_command_is_the_one_asked_for(run, tmp_path):
     assert (status, err) == (0, "") and "master     at 25.0 degC" in out
     status, out, err = run("master", tmp_path / "raw.csv", "--reference", "200 degC", "--no-plot", "--out", tmp_path / "out2")
     assert status == 2 and "--reference" in err and "0.0 degC (273.15 K) to 30.0 degC (303.15 K)" in err
+
+
+def test_frequencies_close_together_are_several(tmp_path):
+    found = read(tmp_path, [row(T, f) for T in (20, 26) for f in np.geomspace(1, 100, 1500)])
+    assert [each.omega.size for each in found] == [1500, 1500] and max(map(repeats_differ, found)) < 0.01

@@ -98,6 +98,19 @@ def test_neighbours_that_do_not_overlap_after_shifting_are_refused(celsius, freq
         master_curve(isotherms(WILLIAMS, celsius, frequency=frequency))
 
 
+def test_a_gap_across_which_nothing_determines_a_shift_is_told_as_one():
+    with pytest.raises(hystrip.InputError, match="degC .* and .*; allowed: neighbours that overlap"):
+        master_curve(isotherms(WILLIAMS, [-50, -44, 36, 42], 0.01, seed=2))
+
+
+def test_an_isotherm_off_the_law_is_remarked_on():
+    given = isotherms(WILLIAMS, range(-30, 61, 6), 0.01)
+    assert not master_curve(given).remarks
+    given[7] = dataclasses.replace(given[7], omega=2 * np.pi * given[7].omega)  # Hz taken for rad/s, or the reverse
+    (said,) = master_curve(given).remarks
+    assert said.startswith("at 12.0 degC a_T is 10^-0.80 times that of the law, others within 10^0.0")
+
+
 def test_modulus_of_another_sample_is_refused():
     given = isotherms(WILLIAMS, range(-30, 61, 6))
     glass = given[0]

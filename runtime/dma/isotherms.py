@@ -61,8 +61,7 @@ def grouped(readings: Readings) -> list[np.ndarray]:
 
 def repeats_differ(isotherm: DynamicModulus) -> float:
     """By how much moduli measured twice at one frequency of an isotherm differ at most, relative; 0 where none was."""
-    x = np.log10(isotherm.omega)
-    starts = np.concatenate(([0], np.flatnonzero(np.diff(x) > _SAME) + 1))
+    starts = _different(np.log10(isotherm.omega))
     ratios = [np.maximum.reduceat(each, starts) / np.minimum.reduceat(each, starts) for each in (isotherm.storage, isotherm.loss)]
     return float(np.max(ratios)) - 1
 
@@ -130,4 +129,12 @@ def _sweeps(readings: Readings, rows: np.ndarray) -> list[np.ndarray]:
 
 def _count(readings: Readings, rows: np.ndarray) -> int:
     """How many frequencies were measured."""
-    return 1 + int(np.count_nonzero(np.diff(np.sort(np.log10(readings.omega[rows]))) > _SAME))
+    return len(_different(np.sort(np.log10(readings.omega[rows]))))
+
+
+def _different(x: np.ndarray) -> list[int]:
+    """Where in ascending decades of frequency the next one begins; neighbours may be many and close."""
+    starts = [0]
+    while (after := int(np.searchsorted(x, x[starts[-1]] + _SAME, side="right"))) < x.size:
+        starts.append(after)
+    return starts

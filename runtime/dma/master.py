@@ -23,6 +23,8 @@ _STEP = 1.0
 _MOST = 1000
 #: decades of overlap below which neighbours are remarked on, and relative difference of what was measured twice
 _POOR_OVERLAP, _POOR_REPEAT = 0.5, 0.05
+#: decades, and times what three of four are off and its standard error, by which a shift stands out from the law
+_OFF, _STANDS_OUT = 0.2, 5.0
 #: decades that a measured shift is uncertain by at least, with the temperature of its isotherm
 _LEAST_ERROR = 0.02
 
@@ -40,7 +42,7 @@ class MasterCurve:
     shift : the law fitted to them, a :class:`hystrip.WLF` or :class:`hystrip.Arrhenius`
     rms : root mean square of the relative distance of points from the smooth curve; law_rms : of log10 a_T from the law
     isotherms : what was measured, in the order of the temperatures
-    remarks : neighbours that hardly overlap, and temperatures at which repeated measurements differ, in words
+    remarks : isotherms off the law, neighbours that hardly overlap, temperatures at which repeats differ, in words
     """
 
     data: DynamicModulus
@@ -113,7 +115,8 @@ def master_curve(
     moved = [each.shifted(a, b) for each, a, b in zip(isotherms, a_T, b_T, strict=True)]
     whole = (np.concatenate([getattr(each, name) for each in moved]) for name in ("omega", "storage", "loss"))
     data = DynamicModulus(*whole, isotherms[0].kind, T_ref, isotherms[0].columns)
-    rms, remarks = found.rms * np.log(10), _remarks(isotherms, found)
+    off = log_a - np.log10(shift.factor(T))
+    rms, remarks = found.rms * np.log(10), _remarks(isotherms, found, off, errors)
     return MasterCurve(data, T, a_T, b_T, errors * np.log(10), shift, float(rms), law_rms, tuple(isotherms), remarks)
 
 
@@ -139,8 +142,13 @@ def _moved(T: np.ndarray, found: Superposition, at: int, T_ref: float, law: str)
     return found.log_a - offset, np.sqrt(np.diag(against @ found.covariance @ against.T))
 
 
-def _remarks(isotherms: list[DynamicModulus], found: Superposition) -> tuple[str, ...]:
+def _remarks(isotherms: list[DynamicModulus], found: Superposition, off: np.ndarray, errors: np.ndarray) -> tuple[str, ...]:
+    """What is odd about isotherms, their shifts, and the decades (n,) by which these are ``off`` the law, with their errors."""
     said = []
+    far = np.abs(off) > np.maximum(_OFF, _STANDS_OUT * np.maximum(np.quantile(np.abs(off), 0.75), errors))
+    for i in np.flatnonzero(far):
+        others = f"others within 10^{np.abs(off[~far]).max():.2f}: another temperature, frequency or sample?"
+        said.append(f"at {celsius(isotherms[i].temperature)} a_T is 10^{off[i]:.2f} times that of the law, {others}")
     for i, shared in apart(isotherms, found, _POOR_OVERLAP):
         lower, upper = (celsius(each.temperature) for each in isotherms[i : i + 2])
         said.append(f"{lower} and {upper} share {shared:.1f} decades: the shift between them rests on little")

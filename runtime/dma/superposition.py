@@ -40,7 +40,7 @@ def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Super
 
     Raises ``InputError`` for neighbours that do not overlap, and for moduli that do not change with frequency.
     """
-    found = _together(isotherms, at, _sequential(isotherms, at), vertical)
+    found, loose = _together(isotherms, at, _sequential(isotherms, at), vertical)
     parted = apart(isotherms, found, _LEAST_SHARED)
     if parted:
         i, shared = parted[0]
@@ -53,6 +53,8 @@ def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Super
         between = f"{degrees(isotherms[i].temperature)} and {degrees(isotherms[i + 1].temperature)}{others}"
         allowed = f"neighbours that overlap after shifting, by {_LEAST_SHARED:g} decades; here {lack}: measure between them, or "
         raise InputError("isotherms", between, f"{allowed}over a wider band, or leave out what lies beyond")
+    if loose is not None:
+        raise InputError("isotherms", degrees(loose), "moduli whose change with frequency determines the shift")
     return found
 
 
@@ -123,8 +125,8 @@ def _off(x: np.ndarray, y: np.ndarray, x_0: np.ndarray, y_0: np.ndarray) -> np.n
     return np.ravel([row[inside] - np.interp(x[inside], x_0, row_0) for row, row_0 in zip(y, y_0, strict=True)])
 
 
-def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, vertical: bool) -> Superposition:
-    """All shifts at once."""
+def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, vertical: bool) -> tuple[Superposition, float | None]:
+    """All shifts at once; and the temperature (K) of an isotherm whose shift nothing determines, or None."""
     from scipy.optimize import least_squares
 
     logs = [_logs(each) for each in isotherms]
@@ -154,13 +156,11 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
     known = 2 * np.linalg.matrix_rank(_splines(x + shifts[owner], pieces)) + found.x.size
     covariance = np.zeros((len(logs), len(logs)))
     _, sizes, ways = np.linalg.svd(found.jac, full_matrices=False)
-    if sizes[-1] < _FLAT:
-        loose = isotherms[free[np.argmax(np.abs(ways[-1, : free.size]))]]
-        raise InputError("isotherms", degrees(loose.temperature), "moduli whose change with frequency determines the shift")
-    covariance[np.ix_(free, free)] = ((ways.T / sizes**2) @ ways)[: free.size, : free.size]
+    loose = float(T[free[np.argmax(np.abs(ways[-1, : free.size]))]]) if sizes[-1] < _FLAT else None
+    covariance[np.ix_(free, free)] = ((ways.T / np.maximum(sizes, _FLAT) ** 2) @ ways)[: free.size, : free.size]
     covariance *= 2 * found.cost / max(found.fun.size - known, 1)
     exponent = float(found.x[-1]) if vertical else 0.0
-    return Superposition(shifts, covariance, exponent, float(np.sqrt(np.mean(found.fun**2))))
+    return Superposition(shifts, covariance, exponent, float(np.sqrt(np.mean(found.fun**2)))), loose
 
 
 def _splines(x: np.ndarray, pieces: int) -> np.ndarray:
