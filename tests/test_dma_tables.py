@@ -296,6 +296,11 @@ def test_numbers_that_are_none_in_the_first_row_are_no_units(tmp_path):
             'column "E\' \\[mPa\\]", taken for mPa: 2 of 2 rows are at 0.0015 to 0.003',
         ),
         ("T [K];f [Hz];E' [TPa];E'' [TPa]", (293, 293), "taken for TPa: 2 of 2 rows are at 1.5e\\+12 to 3e\\+12 Pa"),
+        (
+            "T [K];f [Hz];E' [MPa];E'' [GPa]",
+            (293, 293),
+            "taken for GPa: 2 of 2 rows are at 166.7 to 250 of tan delta, where .* 0 to 10: per",
+        ),
     ],
 )
 def test_what_no_rubber_has_is_remarked_on(tmp_path, names, cells, said):

@@ -9,6 +9,8 @@ from .columns import Column
 
 #: Pa: softer than any gel that keeps its shape, stiffer than diamond; mPa taken for MPa comes out there
 SOFTEST, STIFFEST = 10.0, 1e12
+#: tan delta: no solid loses more; per cent without their sign, and moduli of two units, come out there
+LOSSIEST = 10.0
 
 
 class DataWarning(UserWarning):
@@ -18,6 +20,11 @@ class DataWarning(UserWarning):
 def remark_on(where: str, column: Column, storage: np.ndarray) -> None:
     """Warn of storage moduli (Pa, one for each row) of no rubber; ``column`` holds what they follow from."""
     _remark(where, column, storage, SOFTEST, STIFFEST, "Pa", f"{SOFTEST:g} to {STIFFEST:g} Pa", "another unit?")
+
+
+def remark_on_loss(where: str, column: Column, tan: np.ndarray) -> None:
+    """Warn of loss over storage modulus (one for each row) of no rubber; ``column`` holds what it follows from."""
+    _remark(where, column, tan, 0.0, LOSSIEST, "of tan delta", f"0 to {LOSSIEST:g}", "per cent, or another unit?")
 
 
 def remark_on_temperatures(where: str, column: Column, kelvin: np.ndarray) -> None:
@@ -33,9 +40,9 @@ def _remark(
     if odd.size:
         ends = " to ".join(dict.fromkeys(f"{each:.4g}" for each in (odd.min(), odd.max())))
         rows = "rows is" if odd.size == 1 else "rows are"
+        taken = f"{where}, column {column.name!r}, taken for {column.unit or 'a number'}"
         warnings.warn(
-            f"{where}, column {column.name!r}, taken for {column.unit}: {odd.size} of {values.size} {rows} at {ends} {unit}, "
-            f"where a rubber is within {usual}: {question}",
+            f"{taken}: {odd.size} of {values.size} {rows} at {ends} {unit}, where a rubber is within {usual}: {question}",
             DataWarning,
             stacklevel=5,
         )

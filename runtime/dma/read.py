@@ -11,7 +11,7 @@ from ..inputs.shift import WLF, Arrhenius, Shift
 from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
 from .modulus import DynamicModulus
 from .pairs import PAIRS, in_range, moduli
-from .plausibility import remark_on, remark_on_temperatures
+from .plausibility import remark_on, remark_on_loss, remark_on_temperatures
 from .readings import Readings, celsius
 from .table import Table, as_number, decimal_comma, read_table
 
@@ -51,7 +51,7 @@ def read_dma(
     InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
         allowed
 
-    Warns (``hystrip.dma.DataWarning``) of moduli and temperatures of no rubber, as wrong units give.
+    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give.
     """
     readings = read_readings(path, decimal, shear)
     rows, sets = np.arange(readings.omega.size), readings.sets()
@@ -102,6 +102,7 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
     refuse(pair[1], np.isfinite(storage), "numbers > 0 where the storage modulus follows from them")
     temperature = to_kelvin(values["temperature"], chosen["temperature"], where) if "temperature" in chosen else None
     remark_on(where, next(column for role, column in chosen.items() if role in ("storage", "loss", "absolute")), storage)
+    remark_on_loss(where, chosen[pair[1]], loss / storage)
     if temperature is not None:
         remark_on_temperatures(where, chosen["temperature"], temperature)
     names = np.array([table.cell(row, chosen["set"].index) for _, row in kept], object) if "set" in chosen else None
