@@ -233,6 +233,14 @@ def test_standard_errors_are_those_of_repeated_measurements():
     assert (np.abs(np.log(said / scatter)) < 0.35).all()
 
 
+def test_a_branch_beyond_the_times_that_are_looked_for_is_undetermined():
+    slow, fast = 1 / OMEGA[0], 0.01 / OMEGA[-1]
+    series = fit_prony(known(1e6, np.array([1e6, 1e9]), np.array([slow, fast])), terms=2)
+    assert not np.isclose(series.times[0], fast, rtol=1) and series.times[1] == pytest.approx(slow, rel=0.01)
+    assert np.isinf((series.times_errors[0], series.moduli_errors[0])).all()
+    assert series.times_errors[1] < 0.1 and series.report().count("undetermined") == 2
+
+
 def test_one_temperature_of_raw_data(tmp_path):
     path = tmp_path / "raw.csv"
     path.write_text(

@@ -11,7 +11,7 @@ from ..inputs.checks import number, numbers, sequence
 from ..inputs.fitted import POOR, FittedBand
 from ..inputs.prony import MOST_TIMES
 from .modulus import DynamicModulus
-from .placement import Placement
+from .placement import Placement, held
 from .projection import relative_errors, solved
 from .series import PronySeries
 
@@ -216,6 +216,8 @@ def _series(data: DynamicModulus, times: np.ndarray, free: bool) -> PronySeries:
         raise InputError("dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times")
     times, moduli = times[keep], moduli[np.concatenate(([True], keep))]
     modulus_errors, time_errors = relative_errors(data, moduli, times, residuals, free)
+    if free:
+        modulus_errors[1:][held(data, times)] = time_errors[held(data, times)] = np.inf
     n = f.size
     worst = int(np.argmax(np.abs(residuals)))
     return PronySeries(

@@ -18,6 +18,21 @@ _ROUNDING = 1e-14
 _AT_ONCE = 64
 
 
+#: closer to a bound than this, as logarithms of times, a time is held by it alone
+_HELD = 0.01
+
+
+def bounds(data: DynamicModulus) -> tuple[float, float]:
+    """Logarithms of the times (s) between which times are looked for: within a decade of what was measured. Beyond, a branch
+    cannot be told from a constant."""
+    return np.log(1 / data.omega[-1]) - np.log(10), np.log(1 / data.omega[0]) + np.log(10)
+
+
+def held(data: DynamicModulus, times: np.ndarray) -> np.ndarray:
+    """Which of the times that fit best (s, (n,)) stand at a bound, where not they but the bound is found."""
+    return np.abs(np.subtract.outer(np.log(times), bounds(data))).min(axis=1) < _HELD
+
+
 class Placement:
     """Where relaxation times fit ``data`` best. Residuals are told in the space that columns can span: some dozens of numbers,
     however many were measured. Where a machine is busy, threads that share larger matrices wait for one another far longer than
@@ -25,8 +40,7 @@ class Placement:
 
     def __init__(self, data: DynamicModulus):
         self.data = data
-        # within a decade of what was measured: beyond, a branch cannot be told from a constant
-        self.bounds = np.log(1 / data.omega[-1]) - np.log(10), np.log(1 / data.omega[0]) + np.log(10)
+        self.bounds = bounds(data)
         count = _PER_DECADE * int(np.ceil((self.bounds[1] - self.bounds[0]) / np.log(10))) + 2 * _BEYOND
         margin = _BEYOND * np.log(10) / _PER_DECADE
         rows, goal = system(data, np.exp(np.linspace(self.bounds[0] - margin, self.bounds[1] + margin, count + 1)))
