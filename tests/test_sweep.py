@@ -80,6 +80,27 @@ def test_the_table_says_what_was_not_swept(scene, tmp_path):
     assert "material.T_eps = 0.01, " in fixed and "levels[0].l = 1e-05, " in fixed and "material.K" not in fixed
 
 
+def test_what_is_beyond_the_model_is_noted_once_with_its_first_row(scene, tmp_path):
+    assert hystrip.sweep(scene, out=tmp_path / "out").notes == []
+    prony = SATURATED.replace("T_eps = 0.01\nT_sigma = 1e-4", 'model = "prony"\nmoduli = [1e9]\ntimes = [1e-3]')
+    scene.write_text(f"""temperature = [293.15, 353.15]
+{prony}
+[material.shift]
+model = "WLF"
+C_1 = 8.86
+C_2 = 101.6
+T_ref = 293.15
+[material.fit]
+edges = [10, 1e5]
+rms = [0.02]
+""")
+    noted = hystrip.sweep(scene, over={"levels[1].h": [1e-7, 3e-7, 4e-7]}, out=tmp_path / "noted")
+    beyond, steep = noted.notes
+    assert beyond.startswith("k V/2 pi goes from 10 to 2e+04 Hz, beyond the 1.95e+04 to") and beyond.endswith("(row 10)")
+    assert steep == "level 2: h/l = 0.6 is above 0.3: the model takes slopes as small (row 80)"
+    assert hystrip.load(noted.save(tmp_path / "noted.nc")).notes == noted.notes
+
+
 def test_list_takes_values_together(scene, tmp_path):
     over = {
         "levels[0].h": [1e-6, 5e-7, 2e-7],

@@ -67,6 +67,8 @@ def command(
                 save(done.plot(), files.path(more[-1]))
     again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
     say(f"{done.plan.size} points{again}")
+    for note in done.notes:
+        say(f"note       {note}")
     if done.failed:
         first = next(iter(done.failed.values()))
         say(f"{len(done.failed)} points failed; the column 'failed' says why, the first: {first}", err=True)

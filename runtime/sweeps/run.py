@@ -67,6 +67,14 @@ class Sweep:
         """Reasons of the points that could not be solved."""
         return {row: reason for row, reason in enumerate(self.columns["failed"]) if reason}
 
+    @property
+    def notes(self) -> list[str]:
+        """What about the inputs may be beyond the model or the material, one sentence of each kind with the first row of those
+        looked at; mostly none."""
+        from .notes import notes_of
+
+        return notes_of(self.plan)
+
     def plot(self) -> Figure:
         """A matplotlib Figure of friction and real contact over the swept quantity of most values. Needs the extra ``plot``."""
         from ..plots.sweep import over_swept
