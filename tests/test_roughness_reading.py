@@ -196,6 +196,27 @@ def test_points_that_fill_no_grid_are_said(files, tmp_path, text, said):
         read_surface(tmp_path / "points.xyz", unit="um")
 
 
+@pytest.mark.parametrize("beside", ["rows", "columns", "both"])
+def test_positions_beside_a_matrix_are_no_heights(tmp_path, beside):
+    pytest.importorskip("SurfaceTopography")
+    table = np.random.default_rng(0).standard_normal((16, 16))
+    if beside != "columns":
+        table = np.column_stack((np.round(np.arange(16) / 3, 2), table))
+    if beside != "rows":
+        table = np.vstack((np.arange(table.shape[1]) - 1, table))
+    np.savetxt(tmp_path / "table.txt", table, fmt="%.6g")
+    with pytest.raises(
+        hystrip.InputError, match=r"table.txt: got 'a first row or column of (0.33, 0.67, 1|0, 0.33, 0.67|0, 1, 2), ...'; allowed"
+    ):
+        read_surface(tmp_path / "table.txt", sizes=(50.0, 50.0), unit="um")
+
+
+def test_one_length_of_two_is_told(files, tmp_path):
+    (tmp_path / "half.txt").write_text("# Width: 20 um\n" + (files / "plain.txt").read_text(), encoding="utf-8")
+    with pytest.raises(hystrip.InputError, match=r"half.txt, sizes: got \[20.0\]; allowed: 2 lengths.*# Width and # Height"):
+        read_surface(tmp_path / "half.txt", unit="um")
+
+
 @pytest.mark.parametrize("text", ["x,z\n" + "1,2\n" * 9, "1,2,3\n" * 9 + "1,2\n", "1,,3\n" * 9 + "1,2\n", "1;b;3\n" * 9])
 def test_other_tables_are_no_matrix(files, tmp_path, text):
     (tmp_path / "table.csv").write_text(text)

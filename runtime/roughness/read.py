@@ -20,6 +20,8 @@ from .units import Units, lacks_lengths, units_of
 
 #: share of points that are filled without a warning: their roughness is missing from the levels
 _FEW = 0.02
+#: part of its steps by which a line of positions may be uneven, as numbers of few digits are
+_EVEN = 0.05
 #: mean steps of a line beyond which a step is a gap, which holds waves that its levels count
 _GAP = 4.0
 #: a number with a decimal comma or without decimals, or an undefined one
@@ -150,6 +152,18 @@ def _refuse_lists(shape: tuple[int, ...], where: str) -> None:
         raise InputError(where, f"a matrix of {shape[0]} x {shape[1]}", allowed)
 
 
+def _refuse_positions(heights: np.ndarray, where: str) -> None:
+    """Refuse a first row or column that counts evenly, as numbers of rows and positions beside a matrix do."""
+    for lines in (heights, heights.T):
+        first, second = (np.diff(line[1:]) for line in lines[:2])  # a corner between both belongs to neither
+        goes_on, turns = np.ptp(first) < _EVEN * np.abs(first).max(), np.ptp(second) > np.abs(second).max()
+        if goes_on and turns:
+            shown = ", ".join(f"{each:g}" for each in lines[0, 1:4])
+            raise InputError(
+                where, f"a first row or column of {shown}, ...", "heights alone, without positions or numbers of lines"
+            )
+
+
 def _channel(reader: Any, name: str, where: str) -> Any:
     names = [each.name for each in reader.channels]
     if name not in names:
@@ -158,6 +172,10 @@ def _channel(reader: Any, name: str, where: str) -> Any:
 
 
 def _lengths(channel: Any, sizes: tuple[float, ...] | None, where: str) -> dict[str, Any]:
+    stated = channel.physical_sizes
+    if stated is not None and len(stated) != channel.dim:
+        allowed = f"{channel.dim} lengths, one for each direction: # Width and # Height above a matrix"
+        raise InputError(f"{where}, sizes", [float(each) for each in stated], allowed)
     if lacks_lengths(channel) and sizes is None:
         allowed = "lengths of the scan, one for each direction, since the file does not say (--size, --unit)"
         raise InputError(f"{where}, sizes", None, allowed)
@@ -182,6 +200,8 @@ def _factor(given: Any, where: str) -> float:
 
 def _even(topography: Any, units: Units, where: str) -> Scan:
     """The scan in metres, on an even grid without gaps."""
+    if topography.dim == 2:
+        _refuse_positions(np.ma.filled(topography.heights(), np.nan), where)
     topography, gaps = topography.to_unit("m"), 0.0
     if topography.dim == 1:
         x = topography.positions()
