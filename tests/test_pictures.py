@@ -112,6 +112,12 @@ def test_no_line_through_the_pole_nor_across_pull_off(over_pressure):
     assert np.isnan(tau[np.flatnonzero(tau == off) + 1]).all()
 
 
+def test_friction_without_a_pole_is_seen_down_to_no_pressure():
+    result = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), [SMALL], pressure=[-1, 100, 300, 1e4], velocity=1e-3, rtol=1e-2)
+    (panel,) = result.plot("mu").axes
+    assert result.mu[2] > 1.1 * result.mu[3] and panel.get_ylim()[1] > result.mu.max()
+
+
 def test_points_of_a_level_that_stand_alone_are_not_joined():
     sides = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS, pressure=[-1e5, 1e5], velocity=1e-3, rtol=1e-2)
     for panel in sides.plot().axes:

@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 #: panels of a result over velocity, one for each load
 _PANELS = 6
-#: near zero pressure mu has a pole: the axis shows mu where the pressure is at least this part of the largest
-_APART = 0.05
+#: near zero pressure mu has a pole: the axis shows mu where the pressure is at least this part of the largest; or all of it, if
+#: that is no more than so many times as high
+_APART, _LITTLE = 0.05, 3.0
 #: a logarithmic axis ends at this part of the least total: what a level adds below is not worth decades of it
 _FAINT = 1e-3
 #: most levels that a legend names; of more it would be larger than the panels, and pairs of colour and dash repeat
@@ -171,8 +172,11 @@ def _colours(levels: int) -> list[Any]:
 def limits_apart_from_the_pole(pressure: np.ndarray, curves: list[np.ndarray]) -> tuple[float, float]:
     """Limits of y without what the pole at zero pressure makes huge."""
     far = np.abs(pressure) >= _APART * np.abs(pressure).max()
-    seen = np.concatenate([values[far & np.isfinite(values)] for values in curves])
-    low, high = (min(seen.min(), 0.0), max(seen.max(), 0.0)) if seen.size else (0.0, 1.0)
+    ends = []
+    for shown in (far, np.full(far.shape, True)):
+        seen = np.concatenate([values[shown & np.isfinite(values)] for values in curves])
+        ends.append((min(seen.min(), 0.0), max(seen.max(), 0.0)) if seen.size else (0.0, 1.0))
+    low, high = ends[1] if np.ptp(ends[1]) <= _LITTLE * np.ptp(ends[0]) else ends[0]
     margin = 0.05 * (high - low) or 1.0
     return low - margin, high + margin
 
