@@ -37,6 +37,18 @@ def test_a_file_with_units_is_read(files):
     assert np.allclose(found(levels_of(scan)), LEVELS, rtol=1e-7)
 
 
+@pytest.mark.parametrize("magic", ["aISO-1.0", "aBCR-1.0"])
+def test_surface_data_files_of_either_name_keep_their_scales(tmp_path, magic):
+    """The format had another first line before ISO 25178-71, which the reader does not know."""
+    pytest.importorskip("SurfaceTopography")
+    heights = np.arange(90.0).reshape(9, 10) % 7
+    header = {"NumPoints": 10, "NumProfiles": 9, "Xscale": 1e-6, "Yscale": 2e-6, "Zscale": 1e-9, "Compression": 0, "DataType": 7}
+    lines = [magic, *(f"{name} = {value}" for name, value in header.items()), "*", *(" ".join(map(str, row)) for row in heights)]
+    (tmp_path / "scan.sdf").write_text("\n".join([*lines, "*", ""]))
+    scan = read_surface(tmp_path / "scan.sdf")
+    assert scan.sizes == pytest.approx((1e-5, 1.8e-5)) and scan.heights == pytest.approx(1e-9 * heights.T)
+
+
 def test_a_file_without_sizes_and_unit_takes_them(files):
     scan = read_surface(files / "plain.txt", sizes=(20.0, 20.0), unit="um")
     assert scan.sizes == pytest.approx((2e-5, 2e-5)) and np.allclose(scan.heights.std(), eq4(LEVELS, 2e-5, 400).std())

@@ -26,6 +26,8 @@ _EVEN = 0.05
 _GAP = 4.0
 #: a number with a decimal comma or without decimals, or an undefined one
 _NUMBER = re.compile(rb"[-+]?\d+(,\d+)?(e[-+]?\d+)?|nan|bad", re.IGNORECASE)
+#: how SDF files, as text or binary, began before ISO 25178-71
+_OLD_SDF = re.compile(rb"([ab])BCR-1\.0")
 #: a line of a matrix
 _OF_MATRIX = re.compile(rb"[-+\d.eE\s,;]*(?:nan[-+\d.eE\s,;]*)*", re.IGNORECASE)
 #: bytes of a file in which decimal commas are looked for
@@ -128,13 +130,16 @@ def _with_tabs(line: bytes, separator: bytes) -> bytes:
 
 
 def _with_points(where: str) -> Any:
-    """The file; of one with decimal commas, or a byte order mark, which would hide the first number, a copy without."""
+    """The file; of one with decimal commas, or a byte order mark, which would hide the first number, a copy without; of an SDF
+    file that begins as before the standard one that begins as it says."""
     with open(where, "rb") as file:
         head = file.read(_HEAD)
-        commas = any(map(_has_decimal_commas, head.splitlines()))
-        if not commas and not head.startswith(codecs.BOM_UTF8):
+        commas, sdf = any(map(_has_decimal_commas, head.splitlines())), _OLD_SDF.match(head)
+        if not (commas or sdf or head.startswith(codecs.BOM_UTF8)):
             return where
         data = head.removeprefix(codecs.BOM_UTF8) + file.read()
+        if sdf:
+            return io.BytesIO(sdf[1] + b"ISO-1.0" + data[sdf.end() :])
         return io.BytesIO(data.replace(b",", b".").replace(b";", b"\t") if commas else data)
 
 
