@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hystrip.generated.modes import over_period
+from hystrip.generated.modes import across, over_period
 from hystrip.generated.modes import solved as solved_modes
 
 from ..groups import TWO_PI
@@ -29,11 +29,10 @@ class Forced:
         self.states = self._periodic() if states is None else states
 
     def _periodic(self):
-        (d, b, a, c), kernel, s, m, none = self.edges, self.kernel, self.s, self.s.m, np.zeros((self.s.modes, 1))
+        (d, b, a, c), kernel, s, m = self.edges, self.kernel, self.s, self.s.m
         lost, driven = kernel.contact_map(b, a, kernel.profile(b, s.D) / m.J_0, m)
-        # a contact that is entered with any state: the pressure there follows from it
-        creep = [kernel.contact_increment(b, a, kernel.overstress(none, p, m), m) for p in (1.0, 0.0)]
-        contact = lost + (creep[0] - creep[1])[:, None] / m.J_0, driven
+        # a contact that is entered with any state: the pressure there follows from it, and counts as much as -J of z
+        contact = lost + across(lost, m.J)[:, None] / m.J_0, driven
         maps = (kernel.relaxation_map(a, c, -s.p_0, m), kernel.relaxation_map(c, d + TWO_PI, 0.0, m),
                 kernel.relaxation_map(d, b, -s.p_0, m), contact)  # fmt: skip
         states = [solved_modes(*over_period(maps))]
