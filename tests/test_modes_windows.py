@@ -117,14 +117,14 @@ def test_forced_orbits_rise_with_their_windows_as_responses_bound(n, kind):
     assert np.all(gained > -1e-9)
     lowest = np.minimum(s.step, np.maximum(np.minimum(free, inner.gaps()[1]), 0.0))
     clear = b > d_1  # contact of neither where the window grows
-    least = responses(kernel, s, (b, a), ((c_1, c), (d, d_1)), (s.step, lowest), False)
+    least = responses(s, (b, a), ((c_1, c), (d, d_1)), (s.step, lowest), False)
     most = responses(
-        kernel, s, (np.where(b_1 < a_1, b_1, d_1), np.where(b_1 < a_1, a_1, d_1)), ((c_1, c), (d, d_1)), (s.step, s.step), True
+        s, (np.where(b_1 < a_1, b_1, d_1), np.where(b_1 < a_1, a_1, d_1)), ((c_1, c), (d, d_1)), (s.step, s.step), True
     )
     # the outer one is higher by its gap at most where it alone is free
     apart = outer.gaps()[1] - 0.5 * outer.falling(d)[0] * v
     closer = responses(
-        kernel, s, (np.where(b_1 < a_1, b_1, d_1), np.where(b_1 < a_1, a_1, d_1)), ((c_1, c), (d, d_1)), (s.step, s.step), True,
+        s, (np.where(b_1 < a_1, b_1, d_1), np.where(b_1 < a_1, a_1, d_1)), ((c_1, c), (d, d_1)), (s.step, s.step), True,
         apart=apart,
     )  # fmt: skip
     low, high, higher = (r[:, 0] * u + r[:, 1] * v for r in (least, closer, most))

@@ -50,7 +50,7 @@ from .forced import Forced, chords
 from .problem import ModeStrips, rates
 
 
-def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=None, apart=None):
+def responses(s: ModeStrips, contact, ends, forcing, upper: bool, moved=None, apart=None):
     """Bounds (2, 2, N) of what y gains at release and onset, per growth of the window at either, by steps ``forcing`` of w.
 
     ``contact``: its first and last phase; ``ends``: ranges of the edges c and d. ``moved``: where the contact moves with the
@@ -61,7 +61,7 @@ def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=
     none = b >= a
     b, a = (np.where(none, 0.5 * (d_2 + c_1), edge) for edge in contact)
     rate, kicks = rates(s.m.beta), s.m.J * rates(s.m.beta) / s.m.J_0
-    back = np.stack([kernel.dashpots(np.eye(n)[:, j, None], 0.0, s.m) for j in range(n)], axis=1)
+    back = 1 + s.m.S[:, None] * s.m.enter  # the dashpots of every z by itself, without load
 
     def sums(matrix, amplitudes, short, long):
         near, far = (amplitudes * np.exp(-np.maximum(t, 0.0) * rate) for t in ((short, long) if upper else (long, short)))
@@ -133,10 +133,10 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             good &= (d_0 <= contact[0] + agree) & (contact[1] <= c_0 + agree)
         forcing = s.step, np.where(s.snaps, np.minimum(s.step, highest), s.step)
         ends = ((c, c_0), (d_0, d)) if rising else ((c_0, c), (d, d_0))
-        r = responses(kernel, s, contact, ends, forcing, True, apart=apart)
+        r = responses(s, contact, ends, forcing, True, apart=apart)
         if not rising:
             apart = s.delta_0 + r[1, 0] * u + r[1, 1] * (d_0 - d)
-            r = responses(kernel, s, contact, ends, forcing, True, apart=apart)
+            r = responses(s, contact, ends, forcing, True, apart=apart)
         on, off = steep_d - r[1, 1], steep_c - r[0, 0]
         return good & (on > 0) & (off > 0) & (on * off > r[0, 1] * r[1, 0])
 
@@ -176,7 +176,7 @@ def links(orbit: Forced, target: Forced, rising: bool) -> np.ndarray:
             good &= (target.gaps()[1] + target.falling(d)[0] * v >= 0) | (y_d < s.m.J_0 * s.delta_0)
         forcing = force_c, np.clip(lowest, 0.0, s.step)
         order = lambda x, y: (np.minimum(x, y), np.maximum(x, y))  # noqa: E731
-        r = responses(kernel, s, contact, (order(c, c_1), order(d, d_1)), forcing, False, moved)
+        r = responses(s, contact, (order(c, c_1), order(d, d_1)), forcing, False, moved)
         left = room + np.stack((-rise, least * v)) + r[:, 0] * u + r[:, 1] * v
         return good & (room > 0).all(axis=0) & (left > 0).all(axis=0) & (c_1 > d_1) & (c_1 < d_1 + TWO_PI)
 
@@ -189,7 +189,7 @@ def linearised(orbit: Forced, rising: bool):
     y_c, y_d = orbit.gaps()
     room = np.stack((y_c - s.delta_0 - s.step, y_d - s.delta_0)) * (1 if rising else -1)
     jump = np.where(s.snaps, s.delta_0, s.step)  # of w at an onset: the whole gap where the point snaps into contact
-    falls = -responses(orbit.kernel, s, (b, a), ((c, c), (d, d)), (s.step, jump), True)
+    falls = -responses(s, (b, a), ((c, c), (d, d)), (s.step, jump), True)
     steep_c = np.where(a < c, orbit.adhering(c)[0], -s.m.J_0 * orbit.excess(c)[1])
     falls[[0, 1], [0, 1]] += steep_c, -orbit.falling(d)[0]
     return room, falls
