@@ -3,6 +3,7 @@ has."""
 
 import sys
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -183,13 +184,18 @@ def _branch(p_low, p_high, error, friction=1.0):
 
 
 @pytest.mark.parametrize("unloading", [True, False])
-def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
-    lower, upper = _branch(-1.0, 1.0, 1e-2), _branch(1.0, 2.0, 1e-6)
-    ends, segments = np.array([[-1.0], [2.0]]), segments_of([lower, upper], np.full((2, 4), 1e-9))
-    laws = Laws([segments], *ends, np.zeros((1, 4)), np.full(1, np.inf), np.zeros(1, int), unloading)
+@pytest.mark.parametrize("joints", [(), (0.0, 1.5)])
+def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading, joints):
+    """Whether the law goes on smoothly in another segment at its far end, or ends there."""
+    places = np.sort([-1.0, 1.0, 2.0, *joints])
+    branches = [_branch(low, high, 1e-2 if high <= 1.0 else 1e-6) for low, high in pairwise(places)]
+    segments = [
+        replace(s, inner_low=s.p_low in joints, inner_high=s.p_high in joints)
+        for s in segments_of(branches, np.full((len(branches), 4), 1e-9))
+    ]
+    laws = Laws([segments], np.array([-1.0]), np.array([2.0]), np.zeros((1, 4)), np.full(1, np.inf), np.zeros(1, int), unloading)
     jumps, errors = (dict(zip(laws.breaks[0], told[0], strict=True)) for told in laws.at_breaks)
-    assert errors[1.0] == (1e-6 if unloading else 1e-2)
-    assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
+    assert errors == {-1.0: 1e-2, 1.0: 1e-6 if unloading else 1e-2, 2.0: 1e-6}
     # friction goes with the pressure: before the break and beyond it, wherever that is, it differs by as much
     assert jumps[1.0] == pytest.approx(2 * errors[1.0], rel=1e-3)
 

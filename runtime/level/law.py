@@ -90,7 +90,7 @@ class Laws:
         if group.size:
             p, sides = self.breaks[group, j], (np.maximum(j - 1, 0), j)
             # a segment is left at one of its ends, and that tells where the law goes over to the next one
-            ends = (self._ends[end, self._between[1 - end][group, at]] for end, at in zip((1, 0), sides, strict=True))
+            ends = (self._ends[end, self._between[end][group, at]] for end, at in zip((1, 0), sides, strict=True))
             known, near = (self.smooth(group, interval, p[None])[1][1, 0] for interval in sides), _SAME * np.abs(p).max()
             errors = [np.where(np.abs(end - p) <= near, error, 0.0) for end, error in zip(ends, known, strict=True)]
             left, entered = errors[::-1] if self.unloading else errors
