@@ -212,7 +212,7 @@ def test_a_law_errs_by_what_the_means_next_to_a_pressure_err_by():
     p = np.array([0.1, branch.errors_by_pressure().at[1], 60.0, 99.0])
     for law, expected in (([segments[0]], 0.5), ([one], np.interp(60.0, [50.0, 100.0], [0.5, 7.0]))):
         laws = _laws(law, [200.0, 3.0, 1.0, 0.0], low, law[-1].p_high)
-        _, errors = laws.smooth(np.zeros(4, int), np.zeros(4, int), p[None])
+        _, errors, _ = laws.smooth(np.zeros(4, int), np.zeros(4, int), p[None])
         assert errors[0, 0, :3] == pytest.approx([0.5, 50.0, expected], rel=0.02)
     assert errors[0, 0, 3] == pytest.approx(np.interp(99.0, [50.0, 100.0], [0.5, 7.0]), rel=0.02)
 
@@ -238,6 +238,16 @@ def test_the_error_of_a_law_is_in_the_error_of_what_it_carries():
     one, other = _carried(_stepwise(BREAKS[1], 2e4, 6e4, (0.0, 500.0))), _carried(_stepwise(BREAKS[1], 2.05e4, 6.05e4))
     moved = np.abs(one[:, 0] - other[:, 0])
     assert (moved > 10.0).all() and (moved * CANCELLED <= 1.02 * one[:, -1]).all()
+
+
+def test_errors_of_a_law_hardly_cancel_where_all_pressures_are_alike():
+    """Level 1 is all but flat: level 2 rubs as it does by itself."""
+    material, adhesion = hystrip.KelvinVoigt(K=1e9, T_eps=1e-2), hystrip.Dugdale(p_0=43.15, delta_0=2.957e-8)
+    small, at = hystrip.Level(3.783e-7, 1e-7), {"pressure": -13.95, "velocity": 1.5103e-4}
+    both = hystrip.solve(material, adhesion, [hystrip.Level(7.566e-6, 7.566e-15), small], rtol=1e-3, **at)
+    alone = hystrip.solve(material, adhesion, [small], rtol=1e-7, **at)
+    error = abs(both.tau - alone.tau)
+    assert both.converged and 1e-4 < error <= both.tau_error + alone.tau_error <= 1e-2
 
 
 def test_the_error_of_a_law_is_no_less_than_that_of_its_segments():

@@ -20,8 +20,8 @@ from .strips import SolvedStrips
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
 _SHARE, _CHUNK = 0.1, 4096
 #: what is left in a mean over contacts of the errors of a law, and of sums over parts: most panels and parts err by a hundredth
-#: of their bounds, which have to hold for each, and along a law's pieces errors change sign
-_CANCELLED, _SUMMED = 0.08, 0.3
+#: of their bounds, which have to hold for each, and along a law's pieces errors change sign; so much of a piece errs alike
+_CANCELLED, _SUMMED, _ALIKE = 0.08, 0.3, 0.02
 #: nodes of a part, tried in turn
 _NODES = (12, 20, 34, 54, 84)
 
@@ -114,10 +114,9 @@ class LowerLevelLaws:
         for begin, end in pairwise(np.unique(ends)):
             parts = every.take(slice(begin, end))
             strip = parts.rows - parts.rows[0]
-            spread, ready = (contact.a - contact.b)[parts.rows], np.zeros(parts.size, bool)
+            spread, ready, own = (contact.a - contact.b)[parts.rows], np.zeros(parts.size, bool), np.zeros(parts.size)
             floor = 1e-3 * self.scales[frictions, None]
             best, miss = np.zeros((self.scales.size - 1, parts.size)), np.zeros((len(frictions), parts.size))
-            own = np.zeros(parts.size)
             for n in _NODES:
                 left = np.flatnonzero(~ready)
                 if not left.size:
@@ -137,7 +136,8 @@ class LowerLevelLaws:
         """Integrals of the law over parts on n nodes each, what those of frictions miss, and what is not known of the law."""
         share, weight, projection = graded_gauss(n)
         p = contact.pressure(parts.rows, parts.low + parts.width * share[:, None])
-        law, errors = self.laws.smooth(group[parts.rows], parts.interval, p)
+        law, errors, span = self.laws.smooth(group[parts.rows], parts.interval, p)
+        left = np.maximum(_ALIKE / np.maximum(span, _ALIKE), _CANCELLED)
         width, friction = parts.times * parts.width, law[self.laws.frictions]
         miss = left_out(projection, friction.swapaxes(0, 1))
         # of its friction, and of the pressure it belongs to
@@ -145,7 +145,7 @@ class LowerLevelLaws:
         part = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
         between = part * np.abs(np.diff(np.abs(friction).sum(axis=0), axis=0))
         unknown = errors[0] + np.concatenate((between[:1], between))
-        return width * summed(weight, law.swapaxes(0, 1)), width * miss, _CANCELLED * width * summed(weight, unknown)
+        return width * summed(weight, law.swapaxes(0, 1)), width * miss, left * width * summed(weight, unknown)
 
 
 def _parts_between(contact: Contact, inside: np.ndarray, ups: np.ndarray, downs: np.ndarray) -> Parts:
