@@ -162,6 +162,20 @@ MUTANTS = (
         "test_lower_levels.py",
     ),
     Mutant(
+        "a break is known as well as the segment at the far end of the interval",
+        "level/law.py",
+        "(self._ends[end, self._between[end][group, at]]",
+        "(self._ends[end, self._between[1 - end][group, at]]",
+        "test_error_budget.py",
+    ),
+    Mutant(
+        "errors of a law cancel where all pressures are alike",
+        "level/lower_levels.py",
+        "np.maximum(_ALIKE / np.maximum(span, _ALIKE), _CANCELLED)",
+        "_CANCELLED + 0 * span",
+        "test_lower_levels.py",
+    ),
+    Mutant(
         "a jump is not misplaced where contact passes it at its exit only",
         "level/lower_levels.py",
         "np.minimum(contact.p_entry, contact.p_exit)[row]",
@@ -178,7 +192,7 @@ MUTANTS = (
     Mutant(
         "a break changes friction by what it does right where it is said to be",
         "level/law.py",
-        "zip(sides, (p - shift, p + shift)",
+        "zip(sides, (p - reach, p + reach)",
         "zip(sides, (p, p)",
         "test_error_budget.py",
     ),
