@@ -198,7 +198,7 @@ def test_one_frequency_in_python_is_refused():
 
 def test_decimal_sign_can_be_said_for_points_too(tmp_path):
     path = written(tmp_path, "f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n")
-    with pytest.warns(DataWarning, match="tan delta"):
+    with pytest.warns(hystrip.dma.DataWarning, match="tan delta"):
         assert read_dma(path, decimal=".").storage == pytest.approx([2100, 2200])
     assert read_dma(path, decimal=",").storage == pytest.approx([2.1e6, 2.2e6])
 

@@ -282,3 +282,14 @@ def test_a_layer_next_to_the_valley_shows_in_the_estimate_of_contact():
     point = {"V": 1e4, "pressure": 712.5, "edge": "constitutive"}
     exact, found = (hystrip.solve_level(MATERIALS["Kelvin-Voigt"], NONE, LEVEL, rtol=rtol, **point) for rtol in (1e-9, 1e-6))
     assert abs(found.contact_fraction - exact.contact_fraction) <= found.error_estimate[2] <= 1e-9
+
+
+def test_errors_of_a_law_hardly_cancel_where_all_pressures_are_alike():
+    """Level 1 is all but flat: level 2 rubs as it does by itself."""
+    material, V = hystrip.StandardLinearSolid(K, T_EPS, T_EPS / 23.681215471342103), 1.391699627313431e-05
+    levels = [hystrip.Level(1.28e-4, 1.28e-17), hystrip.Level(6.384586179760462e-06, 1e-7)]
+    p = hystrip.friction_law(material, NONE, levels[1], V=V, rtol=1e-3).p_sat * np.arange(1, 60) / 60
+    both = hystrip.solve(material, NONE, levels, pressure=p, velocity=V, rtol=1e-3)
+    alone = hystrip.solve(material, NONE, levels[1:], pressure=p, velocity=V, rtol=1e-8)
+    assert both.converged.all() and (both.tau_error <= 1e-3 * both.tau).all()
+    assert (np.abs(both.tau - alone.tau) <= both.tau_error + alone.tau_error).all()

@@ -25,8 +25,8 @@ from .family import CONTACT, SEARCH, Family, errors_alone
 _NODES = (16, 32, 64, 128)
 #: of what is allowed, what the values of a law may err, and what a strip's means may; they are known this well at least
 _VALUES, _STRIPS, _COARSE = 0.6, 2.0, 1e-2
-#: what is left in a mean of a law's error: along its pieces errors change sign
-_CANCELLED = 0.3
+#: what is left in a mean of a law's error: along its pieces errors change sign, but so much of a piece errs alike
+_CANCELLED, _ALIKE = 0.3, 0.05
 #: how much steeper a law is feared to be beyond its end
 _FEARED = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
@@ -75,7 +75,10 @@ class FamilyLaws:
                 share = np.minimum((p[index] - low) / (high - low), 1.0)
                 x = 4 / np.pi * np.arcsin(np.sqrt(np.sqrt(share) if j == 0 else share)) - 1
                 moments = _moments(x, weight[index], start, self.series.shape[2])
-                out[which] += np.einsum("km,mkq->mq", moments, self.series[group[which], j])
+                found = np.einsum("km,mkq->mq", moments, self.series[group[which], j])
+                span = 0.5 * (np.maximum.reduceat(x, start) - np.minimum.reduceat(x, start))
+                found[:, -1] *= np.maximum(_ALIKE / np.maximum(span, _ALIKE), _CANCELLED)
+                out[which] += found
         return out
 
 
@@ -218,7 +221,7 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         fitted, miss = _fit(known[:, :, :q], piece[left] == 0, columns.frictions, goal)
         done = (miss <= goal).all(axis=1) | (n == _NODES[-1])
         error = (known[:, :, -2] + slope[:, None] * known[:, :, -1]).max(axis=1)
-        fitted[:, 0, -1] = _CANCELLED * (miss[:, 0] + error)
+        fitted[:, 0, -1] = miss[:, 0] + error
         at = group[left[done]], piece[left[done]]
         series = np.concatenate((series, np.zeros((G, J, n + 1 - series.shape[2], q))), axis=2)
         series[at], ends[:, *at] = fitted[done], known[done][:, [0, -1], 0].T
