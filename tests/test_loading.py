@@ -51,6 +51,12 @@ def folder(tmp_path):
     return target
 
 
+def _edit(file, old, new):
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+
+
 def test_what_holds_a_loaded_solver_is_pickled_with_its_folder(folder, tmp_path):
     solver = hystrip.load_solver(folder)
     series = hystrip.Prony(1e9, MODULI, TIMES, solver=solver)
@@ -127,8 +133,7 @@ def test_parameters_of_a_loaded_model_are_checked(folder):
 
 
 def test_a_solver_for_another_number_of_times_is_refused(folder):
-    module = folder / "generalised.py"
-    module.write_text(module.read_text().replace("MODES = None", "MODES = 2"))
+    _edit(folder / "generalised.py", "MODES = None", "MODES = 2")
     with pytest.raises(InputError, match="a Prony series of 5 different times"):
         hystrip.solve_strip(
             hystrip.Prony(1e9, [1e9] * 5, [1, 2, 3, 4, 5], solver=hystrip.load_solver(folder)),
@@ -142,10 +147,7 @@ def test_a_solver_for_another_number_of_times_is_refused(folder):
 
 
 def test_a_model_with_the_names_of_a_prony_series_but_other_units_does_not_solve_one(folder):
-    module = folder / "generalised.py"
-    text = module.read_text()
-    assert '"K_i": ("Pa/m"' in text
-    module.write_text(text.replace('"K_i": ("Pa/m"', '"K_i": ("1"'))
+    _edit(folder / "generalised.py", '"K_i": ("Pa/m"', '"K_i": ("1"')
     with pytest.raises(InputError, match="a solver for a Prony series of 2 different times"):
         kernel_of(hystrip.Prony(1e9, MODULI, TIMES, solver=hystrip.load_solver(folder)))
 
@@ -168,10 +170,7 @@ def test_a_model_may_have_no_parameters_or_one_that_is_named_as_a_length_of_the_
 
 
 def test_another_interface_is_refused_and_says_how_to_regenerate(folder):
-    module = folder / "generalised.py"
-    text = module.read_text()
-    assert "INTERFACE = 1" in text
-    module.write_text(text.replace("INTERFACE = 1", "INTERFACE = 0"))
+    _edit(folder / "generalised.py", "INTERFACE = 1", "INTERFACE = 0")
     with pytest.raises(InputError, match="emitted for 0.*hystrip regenerate my_model.py --out"):
         hystrip.load_solver(folder)
 

@@ -217,6 +217,15 @@ def test_a_law_errs_by_what_the_means_next_to_a_pressure_err_by():
     assert errors[0, 0, 3] == pytest.approx(np.interp(99.0, [50.0, 100.0], [0.5, 7.0]), rel=0.02)
 
 
+def test_pressures_about_a_smooth_joint_of_a_law_are_alike():
+    """Their parameters are at the far end of one segment and at the near end of the next: they span little of either."""
+    law = _stepwise(0.0, 2e4, 2e4)
+    low, high = (replace(s, inner_high=k == 0, inner_low=k == 1) for k, s in enumerate(law.segments[0]))
+    p = np.array([[1e-9 * BREAKS[0]], [1e-9 * BREAKS[2]]])
+    _, _, span = replace(law, segments=[[low, high]]).smooth(np.zeros(1, int), np.zeros(1, int), p)
+    assert 0 < span[0] < 0.02
+
+
 def test_a_misplaced_jump_of_a_law_is_in_the_error():
     """A break that is known to 20 Pa may stand 20 Pa further on."""
     one, other = _carried(_stepwise(BREAKS[1], 2e4, 6e4, (20.0, 0.0))), _carried(_stepwise(BREAKS[1] + 20, 2e4, 6e4))

@@ -16,8 +16,6 @@ _PER_DECADE, _BEYOND = 8, 12
 _ROUNDING = 1e-14
 #: frequencies summed over at a time: products of small matrices stay in one thread
 _AT_ONCE = 64
-
-
 #: closer to a bound than this, as logarithms of times, a time is held by it alone
 _HELD = 0.01
 

@@ -135,8 +135,8 @@ class Laws:
         return [start[:, None] + np.minimum(count, last[:, None]) for count in ends]
 
     def smooth(self, group: np.ndarray, interval: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Quantities after pressure (q - 1, nodes, m), errors of friction and pressure (2, nodes, m), and how much of a segment,
-        by its parameter, the nodes span (m,); at pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks
+        """Quantities after pressure (q - 1, nodes, m), errors of friction and pressure (2, nodes, m), and how many segments,
+        by their parameters, the nodes span (m,); at pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks
         ``interval`` (m,) and the next ones.
         """
         which, final = (segment[group, interval] for segment in self._between)
@@ -146,7 +146,7 @@ class Laws:
             which = which + ((which < final) & (p > high[which]))
         share = (p - low[which]) / (high - low)[which]
         u = parameter(np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share))
-        return self._cells(u, which), self._errors[:, slot(u, which)], np.ptp(u, axis=0)
+        return self._cells(u, which), self._errors[:, slot(u, which)], np.ptp(which + u, axis=0)
 
     def in_segments(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
         """Quantities of the laws ``group`` at the pressures ``p``, both (m,), that segments are for, shape (m, q)."""

@@ -21,6 +21,7 @@ from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
 from .executors import check_workers, dask, give_up, local, lost
+from .notes import notes_of
 from .plan import Plan, plan_of
 from .sizing import blocks, first_size, next_size
 from .store import Store
@@ -71,8 +72,6 @@ class Sweep:
     def notes(self) -> list[str]:
         """What about the inputs may be beyond the model or the material, one sentence of each kind with the first row of those
         looked at; mostly none."""
-        from .notes import notes_of
-
         return notes_of(self.plan)
 
     def plot(self) -> Figure:
