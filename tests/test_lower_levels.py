@@ -256,7 +256,19 @@ def test_errors_of_a_law_hardly_cancel_where_all_pressures_are_alike():
     both = hystrip.solve(material, adhesion, [hystrip.Level(7.566e-6, 7.566e-15), small], rtol=1e-3, **at)
     alone = hystrip.solve(material, adhesion, [small], rtol=1e-7, **at)
     error = abs(both.tau - alone.tau)
-    assert both.converged and 1e-4 < error <= both.tau_error + alone.tau_error <= 1e-2
+    assert both.converged and error <= both.tau_error + alone.tau_error <= 1e-2
+
+
+def test_what_is_not_known_of_a_law_s_pressure_is_in_its_friction_where_all_pressures_are_alike():
+    """Level 1 is all but flat; next to pull-off a piece of the law knows friction well and pressure hardly: at 1e-6 mu was
+    15 times further off than asked for, and 28 times than said."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-2 / 7.948075624775758)
+    adhesion = hystrip.Dugdale(p_0=94.53252706081016, delta_0=3.715280806142321e-10)
+    small = hystrip.Level(3.2884997848164375e-07, 1e-7)
+    how = {"pressure": [-14.38, -14.4, -13.94, 27.0], "velocity": 4.796594702211885e-05}
+    both = hystrip.solve(material, adhesion, [hystrip.Level(6.58e-6, 6.58e-19), small], rtol=1e-6, **how)
+    alone = hystrip.solve(material, adhesion, [small], rtol=1e-9, **how)
+    assert both.converged.all() and (abs(both.tau - alone.tau) <= both.tau_error + alone.tau_error).all()
 
 
 def test_the_error_of_a_law_is_no_less_than_that_of_its_segments():

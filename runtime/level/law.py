@@ -28,8 +28,8 @@ _SHARE = 0.2
 _FINEST = SLOTS // 16
 #: parameters at which a merged segment is held against the law, and how much more than there is feared
 _CHECKS, _SAFE = np.linspace(0, 1, 130)[1:-1], 1.5
-#: how far to either side of a joint its jump is looked at, of all parameters
-_BESIDE = 1e-6
+#: how far to either side of a joint its jump is looked at, of all parameters; steps along a segment over which its slope is told
+_BESIDE, _STEPS = 1e-6, 32
 
 
 @dataclass(frozen=True)
@@ -118,10 +118,16 @@ class Laws:
 
     @cached_property
     def _errors(self) -> np.ndarray:
-        """Errors of friction, its own and what it carries, and of pressure in the middle of every slot, (2, slots)."""
+        """Errors of friction, its own and what it carries, and of pressure in the middle of every slot, (2, slots). Those of
+        pressure are in those of friction too, by its slope, up to all that it changes by along the segment."""
         share, columns = graded((np.arange(SLOTS) + 0.5) / SLOTS), 1 + self.frictions
         every = [(s.errors, s.p_low + (s.p_high - s.p_low) * share) for row in self.segments for s in row]
-        return np.concatenate([[errors.along(p, which) for which in (columns, [0])] for errors, p in every], axis=1)
+        friction, pressure = np.array([[errors.along(p, which) for errors, p in every] for which in (columns, [0])])
+        (low, high), u = self._ends, np.linspace(0, 1, _STEPS + 1)
+        change = np.abs(np.diff(self._cells(*np.broadcast_arrays(u, np.arange(low.size)[:, None]))[self.frictions])).sum(axis=0)
+        slope = np.repeat(change / (np.diff(graded(u)) * (high - low)[:, None]), SLOTS // _STEPS, axis=1)
+        friction += np.minimum(slope * pressure, change.sum(axis=1)[:, None])
+        return np.stack((friction.ravel(), pressure.ravel()))
 
     @cached_property
     def _between(self) -> list[np.ndarray]:
@@ -137,8 +143,7 @@ class Laws:
     def smooth(self, group: np.ndarray, interval: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Quantities after pressure (q - 1, nodes, m), errors of friction and pressure (2, nodes, m), and how many segments,
         by their parameters, the nodes span (m,); at pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks
-        ``interval`` (m,) and the next ones.
-        """
+        ``interval`` (m,) and the next ones."""
         which, final = (segment[group, interval] for segment in self._between)
         low, high = self._ends
         # mostly there is one segment between two breaks

@@ -140,12 +140,7 @@ class LowerLevelLaws:
         left = np.maximum(_ALIKE / np.maximum(span, _ALIKE), _CANCELLED)
         width, friction = parts.times * parts.width, law[self.laws.frictions]
         miss = left_out(projection, friction.swapaxes(0, 1))
-        # of its friction, and of the pressure it belongs to
-        rise = np.abs(np.diff(p, axis=0))
-        part = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
-        between = part * np.abs(np.diff(np.abs(friction).sum(axis=0), axis=0))
-        unknown = errors[0] + np.concatenate((between[:1], between))
-        return width * summed(weight, law.swapaxes(0, 1)), width * miss, left * width * summed(weight, unknown)
+        return width * summed(weight, law.swapaxes(0, 1)), width * miss, left * width * summed(weight, errors[0])
 
 
 def _parts_between(contact: Contact, inside: np.ndarray, ups: np.ndarray, downs: np.ndarray) -> Parts:
