@@ -63,10 +63,8 @@ class Penetrations(Batch):
 
 
 def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Penetrations:
-    """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)).
-
-    The root is refined with averages to ``rtol``.
-    """
+    """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), refined with
+    averages to ``rtol``."""
     saturated = columns.saturated
     out = Penetrations.at(np.where(p >= saturated.p_sat, p / columns.material.K + 0.75 * columns.level.h, np.nan))
     # without adhesion there is no contact at no pressure, and adhesion holds no more than p_0

@@ -14,8 +14,8 @@ from ..numerics.rounding import EPS, LARGEST
 from .branches import Branch, ParameterAt, Piece, rising
 from .strips import AT_JUMP, NO_CURVE
 
-#: how much finer each further look is; by how many errors a turn has to keep away from the pressure; and part of a piece over
-#: which a curve is taken to be straight, at least and at most
+#: how much finer each further look is; by how many errors a turn has to keep away from the pressure, at least; and part of a
+#: piece over which a curve is taken to be straight, at least and at most
 _FINER, _DOUBT, _STEPS = 0.03, 2.0, (1e-5, 1 / 64)
 
 
@@ -68,7 +68,8 @@ class Walk:
             return
         # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
         end = 2 * (len(row) - (self.unloading or not self.waiting))
-        least, k, most = (min(_place(row, self.p, doubts), end) for doubts in (-_DOUBT, 0.0, _DOUBT))
+        # a turn that no node met may be off by what was asked for, whatever the errors say
+        least, k, most = (min(_place(row, self.p, side, self.goal), end) for side in (-1, 0, 1))
         joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
         inside = 0 <= least and most < 2 * len(row) - 1
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
@@ -113,10 +114,11 @@ class Walk:
         return bool(met.min() - doubt <= self.p <= met.max() + doubt)
 
 
-def _place(row: list[Branch], p: float, doubts: float) -> int:
-    """Where a pressure, greater by so many errors, is: below all branches (-1), on number k (2 k), or just above it (2 k + 1)."""
-    k = sum(part.p_low <= p + doubts * part.errors.most[0] for part in row) - 1
-    return 2 * k + (k < 0 or p + doubts * row[k].errors.most[0] > row[k].p_high)
+def _place(row: list[Branch], p: float, side: int, least: float) -> int:
+    """Where a pressure is, with doubts on a ``side``: below all branches (-1), on number k (2 k), or just above it (2 k + 1)."""
+    at = [p + side * max(_DOUBT * part.errors.most[0], least) for part in row]
+    k = int(np.count_nonzero([part.p_low for part in row] <= np.array(at))) - 1
+    return 2 * k + (k < 0 or at[k] > row[k].p_high)
 
 
 def _in_branch(part: Branch, p: float) -> Root:
