@@ -186,3 +186,13 @@ def test_a_turn_that_no_node_met_is_looked_for_before_a_pressure_is_given_up():
     pull_off = hystrip.friction_law(material, adhesion, level, rtol=1e-6, **at).pull_off
     held = hystrip.solve_level(material, adhesion, level, pressure=pull_off + np.array([-1e-3, 1e-3, 6e-3]), rtol=1e-6, **at)
     np.testing.assert_array_equal(held.contact_fraction > 0, [False, True, True])
+
+
+def test_a_law_goes_on_below_a_break_where_its_pressure_goes_on_falling():
+    """For 2.6 % of the way to the next break, less than a look at it shows: the law ended 0.6 % above its pull-off."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, 0.0), hystrip.Dugdale(p_0=48.795033, delta_0=8.9821525e-9)
+    level, at = hystrip.Level(3.6258378e-07, 1e-7), {"V": 1.0600509e-5, "edge": "constitutive"}
+    pull_off = hystrip.friction_law(material, adhesion, level, rtol=1e-5, **at).pull_off
+    # down to there the curve has no turn
+    means = hystrip.solve_level(material, adhesion, level, D=np.linspace(5.0966e-8, 5.13e-8, 50), rtol=1e-8, **at).p_mean
+    assert (np.diff(means) > 0).all() and abs(pull_off - means[0]) <= 1e-3

@@ -51,8 +51,7 @@ def share_of(t, inner_low: bool, inner_high: bool):
 class Errors:
     """Bounds of the errors of quantities, ``bounds`` (k, q), at places ``at`` (k,), ascending; interpolated between.
 
-    Means next to a break are often known a thousand times less well than all others: one bound would not do.
-    """
+    Means next to a break are often known a thousand times less well than all others: one bound would not do."""
 
     at: np.ndarray
     bounds: np.ndarray
@@ -79,8 +78,7 @@ class Errors:
 class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors`` over t.
 
-    ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece.
-    """
+    ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece."""
 
     low: float
     high: float
@@ -102,8 +100,7 @@ class Piece:
 class Branch:
     """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
 
-    ``inner_low``, ``inner_high``: the curve goes on smoothly, and rising, beyond that end.
-    """
+    ``inner_low``, ``inner_high``: the curve goes on smoothly, and rising, beyond that end."""
 
     piece: Piece
     t_low: float

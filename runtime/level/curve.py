@@ -21,8 +21,9 @@ from .strips import LevelBatch
 
 #: accuracy of the look for re-entrant branches, its first nodes; share of ``h`` below which intervals are tried before, and where
 _ROUGH, _NODES, _NARROW, _APART = 5e-3, 4, 0.1, (0.1, 0.9)
-#: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights
-_SHORT = 1e-3
+#: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights; share of an interval, from
+#: its top, at which it is seen whether the pressure goes on falling
+_SHORT, _TOP = 1e-3, 5e-3
 
 
 def trace(
@@ -49,12 +50,21 @@ def trace(
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
-        parts = intervals.take(looked)
-        ends = zip(parts.column, parts.high, strict=True)
+        ends = list(zip(intervals.column[looked], intervals.high[looked], strict=True))
         before = [min((p for low, p in least[i] if low >= high), default=np.inf) for i, high in ends]
-        parts = reentrant_parts(columns, replace(parts, ceiling=np.array(before)), strips, budget)
-        for row, more in zip(pieces, interpolate(columns, parts, strips), strict=True):
-            row += more
+        parts = replace(intervals.take(looked), ceiling=np.array(before))
+        # below a break the pressure may go on falling for less than a look shows
+        after = np.flatnonzero([any(low == high for low, _ in least[i]) for i, high in ends])
+        if after.size:
+            tops = parts.take(after)
+            values, errors, _ = _rough_means(columns, tops, tops.high - _TOP * tops.width, strips)
+            falls = (values + DOUBT * errors)[:, 0] < tops.ceiling
+            after, tops = after[falls], tops.take(falls)
+            parts.high[after], parts.inner_high[after] = tops.high - _APART[0] * tops.width, True
+            tops = replace(tops, low=parts.high[after], inner_low=falls[falls])
+            pieces = [row + more for row, more in zip(pieces, interpolate(columns, tops, strips, budget), strict=True)]
+        rest = interpolate(columns, reentrant_parts(columns, parts, strips, budget), strips)
+        pieces = [row + more for row, more in zip(pieces, rest, strict=True)]
     return pieces, strips
 
 

@@ -88,8 +88,7 @@ def grazing(columns: LevelBatch, boundary: Boundary, at: CurvePoints) -> CurvePo
 def locate(columns: LevelBatch, boundary: Boundary, start: CurvePoints, unknown: str) -> tuple[CurvePoints, np.ndarray]:
     """Points of a curve by Newton from ``start``, with ``unknown`` "A" or "E" and the other one kept; and which were found.
 
-    ``start`` holds orbits of the boundary's sequence nearby, ``grazing``. Points that are not found are no numbers to be used.
-    """
+    ``start`` holds orbits of the boundary's sequence nearby, ``grazing``. Points that are not found are no numbers to be used."""
     at = replace(start, A=start.A.copy(), E=start.E.copy(), edges=start.edges.copy())
     edges, own = at.edges.T, getattr(at, unknown)
     k, n = edges.shape
@@ -125,8 +124,7 @@ def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
 def _added(value: np.ndarray, step: np.ndarray) -> np.ndarray:
     """``value + step``; what is positive stays so.
 
-    Fast modes make zones of 1e-8 radians whose edges move by far more than that.
-    """
+    Fast modes make zones of 1e-8 radians whose edges move by far more than that."""
     down = (step < 0) & (value > 0)
     share = np.divide(-step, value, out=np.zeros_like(value), where=down)
     return np.where(down, value * _left(share), value + step)

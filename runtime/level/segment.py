@@ -58,8 +58,7 @@ class Cells:
 def cells_of(function: Callable[[np.ndarray, np.ndarray], np.ndarray], tolerance: np.ndarray, smallest: int = 1) -> list[Cells]:
     """Several functions of [0, 1], each to its ``tolerance`` (functions, q).
 
-    ``function``: (which (m,), x (m,)) -> (m, q). ``smallest``: slots of the smallest cells.
-    """
+    ``function``: (which (m,), x (m,)) -> (m, q). ``smallest``: slots of the smallest cells."""
     transform, nodes, count = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE), tolerance.shape[0]
     which, start = np.repeat(np.arange(count), 2), np.tile([0, SLOTS // 2], count)
     size, error = SLOTS // 2, np.zeros(tolerance.shape)

@@ -61,8 +61,7 @@ def attracting(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
 def greatest_gap(kernel, strips: Strips, a) -> np.ndarray:
     """Greatest gap of strips in contact until a that adhere everywhere else, as far as it counts: whether it exceeds delta_0.
 
-    gap - delta_0 rises through zero only where ``H + p_0 + delta_0 < 0``, so it is enough to look at the end of that arc.
-    """
+    gap - delta_0 rises through zero only where ``H + p_0 + delta_0 < 0``, so it is enough to look at the end of that arc."""
     centre, half = kernel.forcing_arc(strips.p_0 + strips.delta_0, strips.D, strips.beta)
     end = centre + TWO_PI - half
     return kernel.gap_after(a, np.maximum(end, a), np.zeros(strips.size), -strips.p_0, strips.D, strips.beta)

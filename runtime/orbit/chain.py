@@ -122,8 +122,7 @@ def _nearly_complete(kernel, cycle: Cycle, x, a) -> np.ndarray:
 def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton from ``edges`` (k, n) for cycles that are all taken to follow ``sequence``.
 
-    Returns the edges, and which of them converged, (n,).
-    """
+    Returns the edges, and which of them converged, (n,)."""
     n = cycle.size
     result, converged = edges.copy(), np.zeros(n, bool)
     low, high = arcs(cycle, sequence)
