@@ -68,8 +68,8 @@ class Walk:
             return
         # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
         end = 2 * (len(row) - (self.unloading or not self.waiting))
-        # a turn that no node met may be off by what was asked for, whatever the errors say
-        least, k, most = (min(_place(row, self.p, side, self.goal), end) for side in (-1, 0, 1))
+        # a turn that no node met may be off by what was asked for, whatever the errors say: as long as more can be asked for
+        least, k, most = (min(_place(row, self.p, side, self.goal * (self.goal > self.finest)), end) for side in (-1, 0, 1))
         joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
         inside = 0 <= least and most < 2 * len(row) - 1
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
@@ -114,9 +114,9 @@ class Walk:
         return bool(met.min() - doubt <= self.p <= met.max() + doubt)
 
 
-def _place(row: list[Branch], p: float, side: int, least: float) -> int:
+def _place(row: list[Branch], p: float, side: int, unseen: float) -> int:
     """Where a pressure is, with doubts on a ``side``: below all branches (-1), on number k (2 k), or just above it (2 k + 1)."""
-    at = [p + side * max(_DOUBT * part.errors.most[0], least) for part in row]
+    at = [p + side * max(_DOUBT * part.errors.most[0], unseen) for part in row]
     k = int(np.count_nonzero([part.p_low for part in row] <= np.array(at))) - 1
     return 2 * k + (k < 0 or at[k] > row[k].p_high)
 
