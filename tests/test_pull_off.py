@@ -178,10 +178,8 @@ def test_first_passes_the_pressure_where_a_shallow_dip_does(T_eps, delta_0, p_0,
 
 def test_a_turn_that_no_node_met_is_looked_for_before_a_pressure_is_given_up():
     """The curve ends in a cusp, which its first interpolants miss by ten times their errors: 0.9 % of pull-off were given up."""
-    material, adhesion = (
-        hystrip.StandardLinearSolid(1e9, 1e-2, 1e-2 / 17.813),
-        hystrip.Dugdale(p_0=36.193513, delta_0=4.2445205e-10),
-    )
+    material = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-2 / 17.813)
+    adhesion = hystrip.Dugdale(p_0=36.193513, delta_0=4.2445205e-10)
     level, at = hystrip.Level(8.9641197e-06, 1e-7), {"V": 1.3951672e-4, "edge": "constitutive"}
     pull_off = hystrip.friction_law(material, adhesion, level, rtol=1e-6, **at).pull_off
     held = hystrip.solve_level(material, adhesion, level, pressure=pull_off + np.array([-1e-3, 1e-3, 6e-3]), rtol=1e-6, **at)

@@ -183,6 +183,27 @@ MUTANTS = (
         "test_lower_levels.py",
     ),
     Mutant(
+        "what is not known of a law's pressure costs nothing",
+        "level/law.py",
+        "np.minimum(slope * pressure",
+        "0 * np.minimum(slope * pressure",
+        "test_lower_levels.py",
+    ),
+    Mutant(
+        "a turn that no node met is where its interpolant turns",
+        "level/walk.py",
+        "self.goal * (self.goal > self.finest)",
+        "0.0",
+        "test_pull_off.py",
+    ),
+    Mutant(
+        "a curve ends at a break below which it goes on for a short way",
+        "level/curve.py",
+        "< tops.ceiling",
+        "< -np.inf",
+        "test_pull_off.py",
+    ),
+    Mutant(
         "a tenth of a law's error in what it carries",
         "level/law.py",
         "return self._cells(u, which), self._errors",

@@ -49,23 +49,26 @@ def trace(
             looked[narrow] = low > high
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
-        least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
-        ends = list(zip(intervals.column[looked], intervals.high[looked], strict=True))
-        before = [min((p for low, p in least[i] if low >= high), default=np.inf) for i, high in ends]
-        parts = replace(intervals.take(looked), ceiling=np.array(before))
-        # below a break the pressure may go on falling for less than a look shows
-        after = np.flatnonzero([any(low == high for low, _ in least[i]) for i, high in ends])
-        if after.size:
-            tops = parts.take(after)
-            values, errors, _ = _rough_means(columns, tops, tops.high - _TOP * tops.width, strips)
-            falls = (values + DOUBT * errors)[:, 0] < tops.ceiling
-            after, tops = after[falls], tops.take(falls)
-            parts.high[after], parts.inner_high[after] = tops.high - _APART[0] * tops.width, True
-            tops = replace(tops, low=parts.high[after], inner_low=falls[falls])
-            pieces = [row + more for row, more in zip(pieces, interpolate(columns, tops, strips, budget), strict=True)]
+        tops, parts = _below_known(columns, intervals.take(looked), pieces, strips)
         rest = interpolate(columns, reentrant_parts(columns, parts, strips, budget), strips)
-        pieces = [row + more for row, more in zip(pieces, rest, strict=True)]
+        pieces = [a + b + c for a, b, c in zip(pieces, interpolate(columns, tops, strips, budget), rest, strict=True)]
     return pieces, strips
+
+
+def _below_known(columns: LevelBatch, parts: Intervals, pieces: list[list[Piece]], strips) -> tuple[Intervals, Intervals]:
+    """The ``parts`` under the least pressure of the ``pieces`` above each, their ceiling; and first, taken from them, the tops of
+    those in which the pressure goes on falling below the break, maybe for less than a look shows."""
+    least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
+    above = [[(low, p) for low, p in least[i] if low >= high] for i, high in zip(parts.column, parts.high, strict=True)]
+    parts = replace(parts, ceiling=np.array([min((p for _, p in row), default=np.inf) for row in above]))
+    which = np.flatnonzero([high in (low for low, _ in row) for row, high in zip(above, parts.high, strict=True)])
+    tops = parts.take(which)
+    if which.size:
+        values, errors, _ = _rough_means(columns, tops, tops.high - _TOP * tops.width, strips)
+        falls = (values + DOUBT * errors)[:, 0] < tops.ceiling
+        rest, tops = tops.take(falls).split((tops.high - _APART[0] * tops.width)[falls], soft=True)
+        parts.high[which[falls]], parts.inner_high[which[falls]] = rest.high, True
+    return tops, parts
 
 
 def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:

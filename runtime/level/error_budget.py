@@ -47,8 +47,7 @@ def peak_pressure(columns: LevelBatch, strips: SolvedStrips) -> np.ndarray:
     """Greatest local pressure of each of the ``columns``, Pa, (n,), -inf without contact, from their ``strips_across``.
 
     Mostly it is the crest's. But adhesion may hold flatter strips that steeper ones have let go of: before these do, the pressure
-    is at most that of complete contact, ``K (E + A (1 + R))``, ``E = D - h``: it begins below that field and tends to it.
-    """
+    is at most that of complete contact, ``K (E + A (1 + R))``, ``E = D - h``: it begins below that field and tends to it."""
     peak = np.full(strips.p_mean.size, -np.inf)
     index, contact = strips.touching
     if index.size:

@@ -126,8 +126,7 @@ class Laws:
         (low, high), u = self._ends, np.linspace(0, 1, _STEPS + 1)
         change = np.abs(np.diff(self._cells(*np.broadcast_arrays(u, np.arange(low.size)[:, None]))[self.frictions])).sum(axis=0)
         slope = np.repeat(change / (np.diff(graded(u)) * (high - low)[:, None]), SLOTS // _STEPS, axis=1)
-        friction += np.minimum(slope * pressure, change.sum(axis=1)[:, None])
-        return np.stack((friction.ravel(), pressure.ravel()))
+        return np.stack((friction + np.minimum(slope * pressure, change.sum(axis=1)[:, None]), pressure)).reshape(2, -1)
 
     @cached_property
     def _between(self) -> list[np.ndarray]:

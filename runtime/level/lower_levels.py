@@ -40,8 +40,7 @@ class Parts(Ranges):
 class LowerLevelLaws:
     """Contributions of the next level down, the last an error estimate of friction; ``laws`` holds a law for each group.
 
-    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into.
-    """
+    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into."""
 
     laws: Laws
     rtol: float

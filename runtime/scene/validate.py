@@ -91,6 +91,7 @@ def _fields(struct: type) -> dict[str, tuple[Any, Any]]:
     return {name: (typing.get_args(hint)[0], hint.__metadata__[0]) for name, hint in hints.items()}
 
 
+@functools.cache
 def _struct_in(kind: Any) -> type | None:
     """The struct among the alternatives of a type, looking into lists."""
     for part in typing.get_args(kind) or (kind,):
@@ -106,7 +107,8 @@ def _struct_in(kind: Any) -> type | None:
 def _refuse_unknown_keys(struct: type, raw: Any, path: str) -> None:
     if isinstance(raw, list):
         for index, each in enumerate(raw):
-            _refuse_unknown_keys(struct, each, f"{path}[{index}]")
+            if isinstance(each, (dict, list)):
+                _refuse_unknown_keys(struct, each, f"{path}[{index}]")
     if not isinstance(raw, dict):
         return
     fields = _fields(struct)

@@ -46,8 +46,7 @@ class Field:
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """Where ``field``, in between at its start, first leaves the range from 0 to ``height`` (inf: no upper limit) before ``end``.
 
-    Returns phases (``end`` where it stays inside), and which limit was met (``LOST``: the search did not end), (N,).
-    """
+    Returns phases (``end`` where it stays inside), and which limit was met (``LOST``: the search did not end), (N,)."""
     n = end.size
     s, which = field.start.copy(), np.full(n, LOST)
     # of the strips that go on, ``index``: where each is now, up to where it goes, the upper limit, and the field's parts
