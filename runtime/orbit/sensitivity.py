@@ -20,8 +20,7 @@ from .march import Orbit
 def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
     """``log T'`` and ``N - F`` at each orbit (not engaged)."""
     F = onset_margin(kernel, cycle, orbit.x)
-    forgets = fading(cycle, contact_length(orbit.b, orbit.a))
-    gain = _log_gain(cycle, forgets, release_margin(kernel, cycle, orbit.c))
+    gain = _log_gain(cycle, fading(cycle, orbit.b, orbit.a), release_margin(kernel, cycle, orbit.c))
     log_onset = np.log1p(over(cycle.onset_step, F))
     return np.add(gain, log_onset, out=np.full(F.shape, -np.inf), where=gain > -np.inf), _excess(cycle, F, gain)
 
@@ -43,14 +42,14 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[np.nd
     be engaged (then its edges are replaced by the ends of their arcs)."""
     a_left = np.where(left.engaged, cycle.centre + TWO_PI - cycle.half_b, left.a)
     c_left = np.where(left.engaged, cycle.centre + TWO_PI - cycle.half_c, left.c)
-    longest = contact_length(np.where(np.isnan(left.b), right.b, left.b), a_left)
+    b_left = np.where(np.isnan(left.b), right.b, left.b)
     F_min = np.minimum(onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x))
     F_max = onset_margin(kernel, cycle, np.clip(cycle.centre, left.x, right.x))
     M_left = np.where(left.engaged, 0.0, release_margin(kernel, cycle, c_left))
     M_min = np.minimum(M_left, release_margin(kernel, cycle, right.c))
     M_max = release_margin(kernel, cycle, np.clip(cycle.centre + np.pi, right.c, c_left))
-    least = _log_gain(cycle, fading(cycle, longest), M_max)
-    most = _log_gain(cycle, fading(cycle, contact_length(right.b, right.a)), M_min)
+    least = _log_gain(cycle, fading(cycle, b_left, a_left), M_max)
+    most = _log_gain(cycle, fading(cycle, right.b, right.a), M_min)
     fall = -np.minimum(_excess(cycle, F_min, least), _excess(cycle, F_max, least))
     rise = np.maximum(_excess(cycle, F_min, most), _excess(cycle, F_max, most))
     return np.maximum(fall, 0.0), np.maximum(rise, 0.0)
@@ -62,7 +61,7 @@ def falls(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
     F = np.minimum(onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x)) - cycle.strips.noise()
     M = np.minimum(release_margin(kernel, cycle, left.c), release_margin(kernel, cycle, right.c))
     # the rounding of the terms of the gain, which may cancel
-    most = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a)), M)
+    most = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, right.b, right.a), M)
     return (F > 0) & (most < 0) & (_excess(cycle, F, most) <= 0)
 
 
@@ -90,14 +89,9 @@ def slope_grows(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     return within & ((before <= 0) | (cycle.touched & onset_grows)) & ((behind <= 0) | (cycle.touched & release_grows))
 
 
-def contact_length(b, a):
-    """Length of contact, 0 where there is none."""
-    return np.where(np.isnan(b), 0.0, np.maximum(a - b, 0.0))
-
-
-def fading(cycle: Cycle, length) -> np.ndarray:
-    """``2 pi/beta + (a - b) L/alpha``, what a period with a contact of this ``length`` forgets; inf: everything."""
-    s = cycle.strips
+def fading(cycle: Cycle, b, a) -> np.ndarray:
+    """``2 pi/beta + (a - b) L/alpha``, what a period with a contact from b to a (NaN: none) forgets; inf: everything."""
+    s, length = cycle.strips, np.where(np.isnan(b), 0.0, np.maximum(a - b, 0.0))
     return over(TWO_PI + 0 * length, s.beta) + over(length * s.L, s.alpha)
 
 
