@@ -24,7 +24,7 @@ from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit, between
 from .orbit_bounds import bounds_after_contact, is_extremal, least_engaged_bounds, orbit_bounds
-from .search import isolate_extremal, located
+from .search import Search, located
 from .sensitivity import falls
 from .solved import Record, Solved, settle
 
@@ -189,8 +189,8 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[O
 
 def _isolated(kernel, cycle: Cycle, last: bool, known: Orbit, limit=np.nan) -> tuple[Orbit, np.ndarray, np.ndarray]:
     """Orbits by the exhaustive search, which of them are certified, and which exist. ``known``, ``limit``: see
-    ``isolate_extremal``."""
-    exists, orbit, beyond = isolate_extremal(kernel, cycle, last, known, limit)
+    ``Search``."""
+    exists, orbit, beyond = Search(kernel, cycle, last, known, limit).run()
     # a bracket without width is the orbit itself
     pick = np.flatnonzero(exists & (orbit.x < beyond.x))
     if pick.size:

@@ -13,32 +13,25 @@ fold or a graze, which go on, the way to rounding is short.
 
 import numpy as np
 
+from hystrip.generated.stable import GONE
+
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
-from .groups import Cycle, arc_versine
-from .march import LEAST_PHASE, TWO_PI, Orbit, march, next_onset
+from .groups import TWO_PI, Cycle, arc_versine
+from .march import LEAST_PHASE, Orbit, march, next_onset
 from .sensitivity import falls, over, slope_bounds
 
-#: retardation times after which a displacement is gone, to the smallest number
-FORGOTTEN = 750
 
+class Search:
+    """Search for the first (``last``: last) zero of r on the onset arc of every cycle of a batch.
 
-def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan):
-    """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none: which
-    arcs (n,) hold an orbit, and it is isolated between the onsets of two marches, left (r >= 0) and right (r <= 0).
-
-    ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.
-    ``limit``: onsets before which (``last``: after which) no orbit has its own, NaN where there is no such bound.
+    The frontier advances from one end of the arc; all behind it is excluded. ``known``: periodic orbits (r = 0) of some of the
+    cycles, x NaN for the others; nothing beyond them is looked at. ``limit``: onsets before which (``last``: after which) no
+    orbit has its own, NaN where there is no such bound.
     """
-    return _Search(kernel, cycle, last, known, limit).run()
 
-
-class _Search:
-    """State of a batch of searches. The frontier advances from one end of the arc; all behind it is excluded."""
-
-    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit | None, limit):
-        self.kernel, self.cycle, self.last = kernel, cycle, last
-        self.known = known or Orbit.blank(cycle.size)
+    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit, limit):
+        self.kernel, self.cycle, self.last, self.known = kernel, cycle, last, known
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
         self.start = np.fmin(cycle.centre + cycle.half_d, limit) if last else np.fmax(cycle.centre - cycle.half_d, limit)
         n = cycle.size
@@ -48,6 +41,7 @@ class _Search:
         return march(self.kernel, self.cycle.take(index), x)
 
     def run(self) -> tuple[np.ndarray, Orbit, Orbit]:
+        """Which arcs (n,) hold an orbit, and marches left (r >= 0) and right (r <= 0) of it, between whose onsets it lies."""
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
         if index.size:
             index, frontier, stop = self._start(index)
@@ -63,12 +57,12 @@ class _Search:
         The earliest onset is engaged longest. If it forgets, all do: each leads to the phase where the undeformed surface comes
         within reach, ``u = -delta_0``.
         """
-        quick = index[self.cycle.strips.beta[index] < 2 * np.pi / FORGOTTEN]
+        quick = index[self.cycle.strips.beta[index] < TWO_PI / GONE]
         if not quick.size:
             return index
         first = self.march(quick, (self.cycle.centre - self.cycle.half_d)[quick])
         s = self.cycle.strips.take(quick)
-        forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > FORGOTTEN * s.beta))
+        forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > GONE * s.beta))
         # a surface that stays out of reach has no onset to lead to
         reach = s.D + s.delta_0
         meets = forgets[reach[forgets] > 0]
