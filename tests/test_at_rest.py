@@ -7,6 +7,7 @@ import hystrip
 from hystrip.orbit import abstract_foundation
 from hystrip.orbit.at_rest import AT_REST, SLOW
 from hystrip.orbit.foundation import foundation_of
+from hystrip.orbit.groups import snaps_in
 from hystrip.orbit.modes.extremal import Search
 from hystrip.orbit.regimes import CODE
 
@@ -34,7 +35,7 @@ def _solve(material, edge, branch, times, p_0, delta_0, D):
     """Strips whose longest time over that of their passage is ``times``."""
     foundation = foundation_of(MATERIALS[material])
     rate = np.broadcast_to(times / float(np.max(foundation.longest_time)), D.shape)
-    strips = foundation.strips(rate, D, p_0, delta_0, edge)
+    strips = foundation.strips(rate, D, p_0, delta_0, edge, snaps_in(foundation.J * p_0, delta_0))
     none = np.zeros(D.size, bool)
     return strips, foundation._solve(strips, none, np.broadcast_to(times, D.shape), branch == "unloading")
 

@@ -34,7 +34,8 @@ def orbits_of(groups, closure):
 def as_input(groups, closure, orbit):
     """The orbit and its cycle as the certificate takes them."""
     alpha, beta, P0, Delta, delta = groups
-    values = (alpha, beta, alpha / beta, 1 - alpha / beta, P0, Delta, delta, float(closure == "constitutive"))
+    steps, J = closure == "constitutive", alpha / beta
+    values = (alpha, beta, J, 1 - J, P0, Delta, delta, float(steps), steps and J * P0 >= Delta)
     cycle = adhesive_cycle(kernel, Strips(*(np.array([v]) for v in values)))
     ends = {letter: (float(start), float(end)) for letter, start, end in orbit.zones if letter != "a"}
     x = ends["f"][1] - 2 * np.pi

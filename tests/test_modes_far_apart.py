@@ -303,11 +303,11 @@ def test_edges_are_known_as_well_as_is_said():
     times = [2.537206869e-12, 3.534562524e-12, 5.252151931e-12, 3.686583657e-08, 6.844830864e-08, 8.802449044e-08]
     moduli, times = [*moduli, 883827083600.0, 2506121726.0, 140231124.6], [*times, 1.038310865e-07, 1.020859582e-05]
     foundation = foundation_of(hystrip.Prony(K, moduli, [*times, 0.0001534684317, 0.01366997248]))
-    kernel, none = foundation.kernel, np.zeros(8)
+    kernel, none, snaps = foundation.kernel, np.zeros(8), np.zeros(8, bool)
     kV = 2 * np.pi / 1e-5 * 0.00015530823555748394
-    ratio = kernel.modulus_ratio(foundation.strips(np.full(8, kV), none, none, none, "constitutive").m)
+    ratio = kernel.modulus_ratio(foundation.strips(np.full(8, kV), none, none, none, "constitutive", snaps).m)
     # strips that cling all along are strips without adhesion, pressed deeper
-    strips = foundation.strips(np.full(8, kV), 1 + ratio * (1 - 1.3e-9), none, none, "constitutive")
+    strips = foundation.strips(np.full(8, kV), 1 + ratio * (1 - 1.3e-9), none, none, "constitutive", snaps)
     strips = replace(strips, bare=True)
     half = 2 * np.arcsin(np.sqrt(0.5 * 1.3e-9))
     end = np.pi - np.arctan2(kernel.loss(strips.m), kernel.storage(strips.m)) - half

@@ -33,7 +33,8 @@ def strips(rng, n, size=N, kind=""):
     _, modes = modes_of(kernel, {"K": np.ones(size), "K_i": K_i, "tau_i": tau_i})
     P0 = log(0.05, 20, size) if far else log(0.05, 5, size)
     Delta = log(*{"far": (1e-3, 10), "snap": (1e-6, 0.1)}.get(kind, (0.03, 2)), size)
-    return kernel, ModeStrips(kernel.at_speed(modes, np.ones(size)), P0, Delta, rng.uniform(-1 - Delta, 3))
+    m = kernel.at_speed(modes, np.ones(size))
+    return kernel, ModeStrips(m, P0, Delta, rng.uniform(-1 - Delta, 3), m.J_0 * P0 >= Delta)
 
 
 class Order:

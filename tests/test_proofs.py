@@ -12,7 +12,7 @@ from hystrip.orbit import engine
 from hystrip.orbit.balance import balance_bound, exclude_out_of_reach
 from hystrip.orbit.certificate import STABLE, saturates
 from hystrip.orbit.engine import solve_strips
-from hystrip.orbit.groups import Strips, adhesive_cycle
+from hystrip.orbit.groups import Strips, adhesive_cycle, snaps_in
 from hystrip.orbit.march import Orbit, march
 from hystrip.orbit.orbit_bounds import bounds_after_contact, is_extremal, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
@@ -20,6 +20,11 @@ from hystrip.orbit.search import Search, excludes
 from hystrip.orbit.sensitivity import falls, slope_excess, slope_grows
 
 SCANNED = 300
+
+
+def made(alpha, beta, J, p_0, delta_0, D, steps) -> Strips:
+    """Strips of these groups; ``steps``: whether w does, under the constitutive closure."""
+    return Strips(alpha, beta, J, 1 - J, p_0, delta_0, D, steps.astype(float), steps & snaps_in(J * p_0, delta_0))
 
 
 def strips(seed: int, n: int, where: str) -> Strips:
@@ -37,7 +42,7 @@ def strips(seed: int, n: int, where: str) -> Strips:
         "saturated": 1 + ratio * (1 + 0.2 * deep) - p_0,
     }[where]
     J = alpha / beta
-    return Strips(alpha, beta, J, 1 - J, p_0, delta_0, D, (rng.random(n) < 0.5).astype(float))
+    return made(alpha, beta, J, p_0, delta_0, D, rng.random(n) < 0.5)
 
 
 def known_orbits(s: Strips, unloading: bool):
@@ -91,7 +96,7 @@ def test_the_first_orbit_is_proven_to_be_the_first(where):
 def test_no_orbit_is_more_engaged_than_one_without_a_limit_to_the_gap(where, closure):
     """The unloading orbit of strips that have an orbit that is free once per period, which may be another one."""
     s = strips(21, 12_000, where)
-    s = replace(s, chi=np.full(s.size, closure), snaps=None)
+    s = made(s.alpha, s.beta, s.J, s.p_0, s.delta_0, s.D, np.full(s.size, closure > 0))
     low, high = (solve_strips(kernel, s, unloading) for unloading in (False, True))
     index = np.flatnonzero(np.isfinite(low.c))
     low, high, cycle = low.take(index), high.take(index), adhesive_cycle(kernel, s.take(index))
@@ -204,7 +209,7 @@ def test_a_contact_too_short_to_be_solved_for_is_not_passed_over():
 def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
     """For every onset that a foundation can come to that was free as the load harmonic rose through ``-p_0``."""
     s = strips(5, 4000, "pressed")
-    s = replace(s, chi=np.ones(s.size), snaps=None, p_0=np.maximum(s.p_0, 1.001 * s.delta_0 / s.J))
+    s = made(s.alpha, s.beta, s.J, np.maximum(s.p_0, 1.001 * s.delta_0 / s.J), s.delta_0, s.D, np.ones(s.size, bool))
     s = s.take(np.flatnonzero((s.beta < 300) & ~saturates(kernel, s)))
     cycle = adhesive_cycle(kernel, s)
     assert cycle.direct.all()
@@ -231,7 +236,7 @@ def within_reach(seed: int, n: int) -> Strips:
     p_0, delta_0, alpha = 10 ** rng.uniform(-2, 2.5, n), 10 ** rng.uniform(-3, 1.5, n), beta * J
     ratio = np.hypot(1, beta) / np.hypot(1, alpha)
     D = -delta_0 + rng.random(n) ** 2 * (delta_0 + 1.1 * (1 + ratio))
-    return Strips(alpha, beta, J, 1 - J, p_0, delta_0, D, (rng.random(n) < 0.5).astype(float))
+    return made(alpha, beta, J, p_0, delta_0, D, rng.random(n) < 0.5)
 
 
 def test_every_orbit_within_reach_is_more_engaged_than_the_least_engaged_state():

@@ -45,7 +45,7 @@ def strips(n, wide, count, materials=40):
     pick = np.arange(count) % materials
     m = kernel.at_speed(type(modes)(*(each[..., pick] for each in modes)), np.ones(count))
     P0, Delta, delta = (np.array([s[name] for s in drawn]) for name in ("P0", "Delta", "delta"))
-    return ModeStrips(m, P0, Delta, delta)
+    return ModeStrips(m, P0, Delta, delta, m.J_0 * P0 >= Delta)
 
 
 def cost(n, wide, count):

@@ -14,7 +14,7 @@ from ..inputs.surface import Level
 from ..numerics.rounding import LARGEST
 from ..orbit.contact import Contact
 from ..orbit.foundation import Foundation, foundation_of
-from ..orbit.groups import ROUNDING
+from ..orbit.groups import ROUNDING, snaps_in
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
 from .regime_map import Crossings
@@ -136,8 +136,9 @@ class LevelBatch:
 
     def dimensionless(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> Any:
         """Dimensionless strips at the velocities ``V``, (m,) each."""
-        p_0, delta_0 = self.stretch / A, self.adhesion.delta_0 / A
-        return foundation_of(self.material).strips(self.level.k * V, D / A, p_0, delta_0, self.edge)
+        foundation, p_0, delta_0 = foundation_of(self.material), self.stretch, self.adhesion.delta_0
+        snaps = np.broadcast_to(snaps_in(foundation.J * p_0, delta_0), A.shape)
+        return foundation.strips(self.level.k * V, D / A, p_0 / A, delta_0 / A, self.edge, snaps)
 
     def evaluate(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
         """Of the strips at ``theta``: codes (m,), values to average (m, q), pressures, the greatest and at entry, over breaks of

@@ -58,9 +58,9 @@ class Foundation(ABC):
         """The times of the foundation over those of strips at ``rate = k V``, 1/s, as the kernel's functions of it take them."""
 
     @abstractmethod
-    def strips(self, rate, D, p_0, delta_0, edge: str, snaps=None) -> Any:
-        """Dimensionless strips at ``rate = k V``, 1/s, the rest dimensionless; ``snaps``: where a step of w at the adhesion
-        onset closes the gap (see ``groups.Strips``), if it is known."""
+    def strips(self, rate, D, p_0, delta_0, edge: str, snaps) -> Any:
+        """Dimensionless strips at ``rate = k V``, 1/s, the rest dimensionless; ``snaps``: where a step of w by ``J_0 p_0`` closes
+        the gap (``groups.snaps_in``)."""
 
     @abstractmethod
     def fold(self, sequence: str, edges, strips) -> np.ndarray:
@@ -141,7 +141,7 @@ class Foundation(ABC):
     def waves(self, rate: np.ndarray) -> Waves:
         """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
         none = np.zeros(rate.size)
-        return Waves(self, self.strips(rate, none, none, none, "constitutive"), self.pace(rate))
+        return Waves(self, self.strips(rate, none, none, none, "constitutive", none > 0), self.pace(rate))
 
     def entry(self, sequence: str, edges, strips) -> np.ndarray:
         """What contact begins with."""

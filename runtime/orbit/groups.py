@@ -22,7 +22,7 @@ class Strips(Batch):
     Lengths are divided by the amplitude A, pressures by K A. ``alpha = k V T_sigma``, ``beta = k V T_eps``,
     ``J = T_sigma/T_eps`` (instantaneous compliance times K), ``L = 1 - J``; ``chi`` is 0 under the continuous and 1
     under the constitutive closure. ``snaps``: the step of w at the adhesion onset closes the whole gap, ``J_0 p_0 >= delta_0``
-    under the constitutive closure; as the amplitude has no part in it, it is decided in SI where strips are made from SI.
+    under the constitutive closure; as the amplitude has no part in it, it is decided in SI.
     """
 
     alpha: np.ndarray
@@ -33,12 +33,7 @@ class Strips(Batch):
     delta_0: np.ndarray
     D: np.ndarray
     chi: np.ndarray
-    snaps: np.ndarray | None = None
-
-    def __post_init__(self):
-        if self.snaps is None:
-            snaps = (self.chi > 0) & snaps_in(self.J * self.p_0, self.delta_0)
-            object.__setattr__(self, "snaps", np.broadcast_to(snaps, self.D.shape))
+    snaps: np.ndarray
 
     @property
     def arguments(self) -> tuple:

@@ -44,10 +44,10 @@ class SingleTime(Foundation):
     def at_rate(self, rate):
         return rate * self.material.T_sigma, rate * self.material.T_eps
 
-    def strips(self, rate, D, p_0, delta_0, edge, snaps=None):
+    def strips(self, rate, D, p_0, delta_0, edge, snaps):
         m, steps = self.material, edge == "constitutive"
         shared = (every(v, D.shape) for v in (*self.at_rate(rate * self.pace(rate)), m.J, m.L))
-        return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), None if snaps is None else snaps & steps)
+        return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), snaps & steps)
 
     def fold(self, sequence, edges, strips):
         """The numerator of ``T'`` less its denominator, products of loads: all but linear next to where adhesion ends. With a

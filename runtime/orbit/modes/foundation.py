@@ -51,7 +51,7 @@ class ManyTimes(Foundation):
     def at_rate(self, rate):
         return (self.kernel.at_speed(self.modes, np.atleast_1d(np.asarray(rate, float))),)
 
-    def strips(self, rate, D, p_0, delta_0, edge, snaps=None):
+    def strips(self, rate, D, p_0, delta_0, edge, snaps):
         return ModeStrips(*self.at_rate(np.broadcast_to(rate, D.shape)), p_0, delta_0, D, snaps)
 
     def fold(self, sequence, edges, strips):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..batch import Batch, pick
-from ..groups import TWO_PI, snaps_in
+from ..groups import TWO_PI
 from ..regimes import EQUATIONS, ZONES
 
 #: the greatest rate of decay
@@ -26,12 +26,8 @@ class ModeStrips(Batch):
     p_0: np.ndarray
     delta_0: np.ndarray
     D: np.ndarray
-    snaps: np.ndarray | None = None
+    snaps: np.ndarray
     bare: bool = False
-
-    def __post_init__(self):
-        if self.snaps is None:
-            object.__setattr__(self, "snaps", snaps_in(self.step, self.delta_0))
 
     @property
     def arguments(self) -> tuple:
