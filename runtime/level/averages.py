@@ -21,7 +21,7 @@ from ..orbit.regimes import CODE
 from .breaks import Zones, zones_along_y
 from .changes import Changes, locate_changes
 from .nonadhesive.average import family_means
-from .regime_map import by_equation, hides_another, known_breaks, theta_of
+from .regime_map import by_equation, hides_another, known_breaks
 from .strips import AVERAGE_LIMIT, LevelBatch
 
 #: nodes of a panel at first and at most, and one more; and in saturated contact, where strips take no search: as good as exact
@@ -271,11 +271,9 @@ class _Work:
             return self._evaluated(panels.state[line], x)
 
         def equation(changes):
-            at, level = panels.state[changes.line], self.columns.level
-            theta = np.stack((changes.low, changes.high), axis=1)
-            E = np.broadcast_to((self.columns.D[at] - level.h)[:, None], theta.shape)
-            parent, A = by_equation(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
-            return parent, theta_of(self.columns, A), np.zeros(parent.size, bool)
+            at = panels.state[changes.line]
+            parent, theta = by_equation(self.columns.at(at, self.columns.D[at]), changes, "A")
+            return parent, theta, np.zeros(parent.size, bool)
 
         found, halved = locate_changes(probe, equation, changes, width)
         self.columns.work.bisected += halved

@@ -58,9 +58,8 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
         return columns.at(column[line], x).evaluate(np.arange(x.size), np.zeros(x.size))
 
     def equation(changes):
-        E = np.stack((changes.low, changes.high), axis=1) - h
-        parent, place = by_equation(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
-        return parent, place + h, hides_another(*changes.codes[parent].T)
+        parent, place = by_equation(columns.at(column[changes.line], changes.low), changes, "E")
+        return parent, place, hides_another(*changes.codes[parent].T)
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
     changes, *_ = Changes.between(np.arange(m), D, answers)
@@ -226,9 +225,7 @@ def _locate_around(columns: LevelBatch, column, low, high, D, strips: np.ndarray
     answers = columns.at(np.repeat(column, 3), np.repeat(D, 3)).evaluate(np.arange(theta.size), theta.ravel())
     known = [v.reshape(*theta.shape, *v.shape[1:]) for v in answers]
     changes, row, _ = Changes.between(np.arange(D.size), theta, known)
-    at = columns.at(column[row], D[row])
-    A = columns.level.amplitude(np.stack((changes.low, changes.high), axis=1))
-    by_equation(at, changes, A, np.repeat(at.D - columns.level.h, 2).reshape(-1, 2), "A")
+    by_equation(columns.at(column[row], D[row]), changes, "A")
 
 
 def _vanish_at_turns(columns: LevelBatch, some: Islands, strips: np.ndarray) -> np.ndarray:

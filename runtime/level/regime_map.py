@@ -176,10 +176,14 @@ def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.abs(_RANK[code % len(CODE)] - _RANK[other % len(CODE)]) > 1
 
 
-def by_equation(
-    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
-) -> tuple[np.ndarray, np.ndarray]:
-    """Which changes equations locate completely, once for each break of the law below that is passed, and where, (k,) both."""
+def by_equation(columns: LevelBatch, changes: Changes, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+    """Which changes equations locate completely, once for each break of the law below that is passed, and where, (k,) both:
+    along y at the penetration of each of the ``columns`` (``unknown`` "A"), or over penetration at the crest ("E")."""
+    ends, h = np.stack((changes.low, changes.high), axis=1), columns.level.h
+    if unknown == "A":
+        A, E = columns.level.amplitude(ends), np.repeat(columns.D - h, 2).reshape(-1, 2)
+    else:
+        A, E = np.full(ends.shape, 0.5 * h), ends - h
     passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
     parent, which = np.nonzero(passed)
     several = passed.sum(axis=1)[parent] > 1
@@ -191,7 +195,8 @@ def by_equation(
     each, parent = Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
     place, found = locate_boundaries(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
     every = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
-    return parent[every], place[every]
+    parent, place = parent[every], place[every]
+    return parent, theta_of(columns, place) if unknown == "A" else place + h
 
 
 @dataclass

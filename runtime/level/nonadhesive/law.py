@@ -16,9 +16,10 @@ from ...numerics.quadrature import interleaved
 from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import foundation_of
+from ..averages import level_means
 from ..saturated import Saturation
 from ..strips import LevelBatch, cut_penetration
-from .average import Span, completely, family_means
+from .average import Span, completely
 from .family import CONTACT, SEARCH, Family, errors_alone
 
 #: nodes of a piece, tried in turn
@@ -210,8 +211,9 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         every = np.repeat(group[left], t.size)
         at = columns.at(every, D.ravel())
         tolerance = _VALUES * tolerances(at, friction[every], fraction[every])
-        means, errors = family_means(at, np.full(D.size, _VALUES * rtol), tolerance)
-        fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0])).reshape(*D.shape, q + 2)
+        means = level_means(at, np.full(D.size, _VALUES * rtol), tolerance)
+        errors = means.errors[:, columns.frictions].sum(axis=1), means.errors[:, 0]
+        fresh = np.column_stack((means.values, *errors)).reshape(*D.shape, q + 2)
         known = fresh if known is None else interleaved(known, fresh)
         total, step = known[:, :, columns.frictions].sum(axis=2), np.diff(known[:, :, 0], axis=1)
         # differences of pressures that rounding or quadrature would make slopes of are none
