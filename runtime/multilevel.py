@@ -147,10 +147,8 @@ class _Solve:
 
     def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None, found: Penetrations | None = None):
         self.surface, self.V, self.load, self.by_pressure, self.friction = surface, V, load, by_pressure, friction
-        self.M, n = len(surface.levels), V.size
-        # nothing is known of them yet
-        self.out = Points(np.full(n, np.nan), np.zeros(n), *np.zeros((3, self.M, n)), np.zeros(n), *np.zeros((2, n), bool))
-        self.given, self.found = found is not None, found or Penetrations.at(np.full(n, np.nan))
+        self.M, self.out = len(surface.levels), Points.unknown(len(surface.levels), V.size)
+        self.given, self.found = found is not None, found or Penetrations.at(np.full(V.size, np.nan))
 
     def run(self, full, progress) -> Points:
         """Solve them; the points ``full`` (n,) are in saturated contact on every level."""

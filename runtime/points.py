@@ -27,6 +27,21 @@ class Points:
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
+    @classmethod
+    def unknown(cls, levels: int, n: int) -> Points:
+        """So many points of which nothing is known yet."""
+        nothing, by_level, none = np.zeros(n), np.zeros((levels, n)), np.zeros(n, bool)
+        return cls(
+            D=np.full(n, np.nan),
+            p=nothing,
+            tau=by_level,
+            contact=by_level.copy(),
+            adhesion=by_level.copy(),
+            error=nothing.copy(),
+            closed_form=none,
+            pulled_off=none.copy(),
+        )
+
     def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
         """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
         better = np.flatnonzero((finer.error < self.error[index]) | surely)

@@ -113,10 +113,11 @@ class Panels(Ranges):
         (state, low, first), (_, high, last) = ([v[np.lexsort((each[1], each[0]))] for v in each] for each in ends)
         return cls(low, high, state, first, last)
 
-    def halves(self) -> list[Panels]:
-        """Both halves of each."""
+    @property
+    def halves(self) -> Panels:
+        """Halves of each: all lower ones, then all upper ones."""
         middle, none = 0.5 * (self.low + self.high), np.full(self.size, -1)
-        return [replace(self, high=middle, last=none), replace(self, low=middle, first=none)]
+        return Panels.joined([replace(self, high=middle, last=none), replace(self, low=middle, first=none)])
 
     def at(self, t: np.ndarray) -> np.ndarray:
         """Thetas at the parameters ``t`` of every panel, (panels, t)."""
@@ -175,7 +176,7 @@ class _Work:
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
             (doubled if stage.n < _LAST else halved).append(stage)
-        parts = [self._divide(mixed, goal), *(half for stage in halved for half in stage.parts.halves())]
+        parts = [self._divide(mixed, goal), *(stage.parts.halves for stage in halved)]
         left = [Stage(Panels.joined(parts), _FIRST), *doubled]
         return [stage for stage in left if stage.parts.size]
 

@@ -6,7 +6,7 @@ Between two points whose codes differ lies a change. Its bracket is divided in t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -66,8 +66,9 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
         parent, place, doubtful = equation(changes)
         # rounding may push it out of its bracket, which would then come back as it was
         place = np.clip(place, changes.low[parent], changes.high[parent])
-        found.append(_at(place[~doubtful], changes.take(parent[~doubtful])))
-        left, where = np.setdiff1d(np.arange(changes.size), parent[~doubtful]), np.full(changes.size, np.nan)
+        settled, at = parent[~doubtful], place[~doubtful]
+        found.append(replace(changes.take(settled), low=at, high=at))
+        left, where = np.setdiff1d(np.arange(changes.size), settled), np.full(changes.size, np.nan)
         where[parent[doubtful]] = place[doubtful]
         changes, width, where = changes.take(left), width[left], where[left]
         if not changes.size:
@@ -81,13 +82,8 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
         known = [np.concatenate((end[:, :1], new, end[:, 1:]), axis=1) for end, new in zip(ends, answers, strict=True)]
         changes, row, part = Changes.between(changes.line, np.concatenate((low, x, high), axis=1), known)
         exact = told[row] & (part == 1)
-        found.append(_at(where[row[exact]], changes.take(exact)))
+        at = where[row[exact]]
+        found.append(replace(changes.take(exact), low=at, high=at))
         changes, width = changes.take(~exact), width[row[~exact]]
     out = Changes.joined([*found, changes])
     return out.take(np.lexsort((out.low, out.line))), divided
-
-
-def _at(place: np.ndarray, changes: Changes) -> Changes:
-    """The changes, known to be at ``place``."""
-    changes.low[:] = changes.high[:] = place
-    return changes

@@ -192,9 +192,8 @@ def turning(points: CurvePoints) -> np.ndarray:
 def locate_between(columns: LevelBatch, boundary: Boundary, known: CurvePoints) -> CurvePoints:
     """Points of the curves through the points ``known`` half way between two at one E, where they turn between them."""
     one = np.flatnonzero(together(known) & (np.diff(known.E) == 0) & (np.diff(known.A) > 0))
-    start = known.take(one)
-    start.A, start.edges = (0.5 * (v[one] + v[one + 1]) for v in (known.A, known.edges))
-    points, found = locate(columns, boundary, start, "E")
+    A, edges = (0.5 * (v[one] + v[one + 1]) for v in (known.A, known.edges))
+    points, found = locate(columns, boundary, replace(known.take(one), A=A, edges=edges), "E")
     return points.take(np.flatnonzero(found))
 
 
