@@ -220,7 +220,7 @@ MUTANTS = (
     Mutant("a tenth of a law's error in its own estimate", "level/law.py", "1.5 * error", "0.1 * error", "test_lower_levels.py"),
     Mutant("the tie of a snap is a matter of rounding", "orbit/groups.py", "(1 - ROUNDING)", "(1 + ROUNDING)", "test_limits.py"),
     Mutant(
-        "speed is infinite too early", "orbit/groups.py", "STANDS_STILL = 1e12", "STANDS_STILL = 1e4", "test_extreme_velocity.py"
+        "speed is infinite too early", "orbit/single.py", "STANDS_STILL = 1e12", "STANDS_STILL = 1e4", "test_extreme_velocity.py"
     ),
     Mutant(
         "friction at high speed is not scaled back",

@@ -2,7 +2,7 @@
 
 At one velocity, with one material, adhesion and closure, a strip is a point of a plane: its amplitude ``A`` and ``E = D - h``,
 the penetration of the valley of its level; its own is ``D_j = E + 2 A``. Where an orbit of one regime ceases to exist its edges
-obey one equation more than its boundary equations (physics: a fold, where the return map has the slope one, or a grazing event).
+obey one equation more than its boundary equations (a fold, where the return map has the slope one, or a grazing event).
 That is one point on every line across the plane: with A given E is unknown, with E given A is.
 
 Where a curve turns back over E two crossings of a level meet, and the island between them ends. Just beyond, one strip is next to

@@ -1,4 +1,4 @@
-"""Closed forms of a level in saturated contact (physics: Eq. 15 averaged, and the thresholds that bring it about)."""
+"""Closed forms of a level in saturated contact: Eq. 15 averaged, and the thresholds that bring it about."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,1 +1,1 @@
-"""One strip: its regimes, its extremal periodic orbit, its means and fields (physics: one wave, one phase)."""
+"""One strip: its regimes, its extremal periodic orbit, its means and fields (one wave, one phase)."""

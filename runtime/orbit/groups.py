@@ -10,9 +10,6 @@ from .batch import Batch
 TWO_PI = 2 * np.pi
 #: rounding of a sum of a few terms, in the largest of them
 ROUNDING = 64 * EPS
-#: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the
-#: glassy pressure, and what a period changes is lost in the rounding of the edges soon after (1e14)
-STANDS_STILL = 1e12
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,12 @@ from ..inputs.material import StandardLinearSolid
 from .abstract_foundation import Foundation, every
 from .chain import gap_zones, links, step
 from .engine import solve_strips
-from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
+from .groups import Strips, adhesive_cycle, bare_cycle
 from .regimes import ZONES
+
+#: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the
+#: glassy pressure, and what a period changes is lost in the rounding of the edges soon after (1e14)
+_STANDS_STILL = 1e12
 
 
 class SingleTime(Foundation):
@@ -39,7 +43,7 @@ class SingleTime(Foundation):
 
     def pace(self, rate):
         alpha = rate * self.material.T_sigma
-        return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
+        return np.divide(_STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > _STANDS_STILL)
 
     def at_rate(self, rate):
         return rate * self.material.T_sigma, rate * self.material.T_eps
