@@ -254,11 +254,11 @@ class _Solve:
         return columns, tolerances(columns, rtol * _OF_TOP / self.M * size, rtol * fractions)
 
     def _write(self, index, root: Penetrations, means):
-        out, values = self.out, means.values
+        out, values, own = self.out, means.values, len(QUANTITIES)
         out.D[index] = root.D
         p = out.p[index] = self.load[index] if self.by_pressure else values[:, 0]
-        own = len(QUANTITIES)
         values[:, :own], errors = root.meeting(p, means)
+        out.p_error[index] = 0.0 if self.by_pressure else errors[:, 0]
         # what is carried follows its own, three for each level below, then an error for each
         count = own + 3 * (self.M - 1)
         for quantity, rows in enumerate((out.tau, out.contact, out.adhesion), start=1):

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 @dataclass
 class Points:
-    """Results at points (velocity, load), arrays (n,) and (levels, n), SI."""
+    """Results at points (velocity, load), arrays (n,) and (levels, n), SI; ``error`` of the friction, ``p_error`` of ``p``: none
+    where that was given."""
 
     D: np.ndarray
     p: np.ndarray
@@ -24,6 +25,7 @@ class Points:
     contact: np.ndarray
     adhesion: np.ndarray
     error: np.ndarray
+    p_error: np.ndarray
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
@@ -38,6 +40,7 @@ class Points:
             contact=by_level.copy(),
             adhesion=by_level.copy(),
             error=nothing.copy(),
+            p_error=nothing.copy(),
             closed_form=none,
             pulled_off=none.copy(),
         )

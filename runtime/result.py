@@ -35,7 +35,8 @@ class Result:
         within ``rtol`` of that area; without adhesion within the larger of ``rtol`` and 1e-4 of themselves
     pulled_off : the pressure lies below pull-off: no contact, mu = 0
     closed_form : the point was solved by the closed form of saturated contact on all levels
-    error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
+    error_estimate : estimated absolute error of mu: of tau over the pressure, and of that where a penetration was given (inf
+        where it may be zero); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa
     converged : bool; the estimated error is within ``rtol``. Where it is not, the work came to its limit and the estimate says
         what is known; with ``strips`` it says whether the equal strips happen to be as accurate

@@ -136,7 +136,9 @@ def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:
     tau = points.tau.sum(axis=0)
     loaded = points.p != 0
     mu = np.divide(tau, points.p, out=np.full(tau.shape, np.nan), where=loaded)
-    error = np.divide(points.error, np.abs(points.p), out=np.full(tau.shape, np.nan), where=loaded)
+    # a pressure that a penetration takes errs too: mu is not known where that may be zero
+    error, least = points.error + np.abs(np.where(loaded, mu, 0.0)) * points.p_error, np.abs(points.p) - points.p_error
+    error = np.divide(error, least, out=np.where(loaded, np.inf, np.nan), where=loaded & (least > 0))
     one = lambda v: v.reshape(shape)  # noqa: E731
     many = lambda v: v.reshape(len(surface.levels), *shape)  # noqa: E731
     return Result(

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.polynomial.chebyshev import chebval
 
+import hystrip
 from hystrip.level.averages import Averages
 from hystrip.level.branches import graded
 from hystrip.level.inverse import Penetrations
@@ -186,3 +187,24 @@ def test_a_step_within_what_either_average_misses_is_no_slope():
         values, bounds = at.meeting(np.ones(1), means)
         error = abs(values[0, 1] - 0.5)
         assert error <= bounds[0, 1] and (error <= off if errors.any() else error > off)
+
+
+@pytest.mark.parametrize("edge", ["continuous", "constitutive"])
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+def test_friction_coefficients_at_penetrations_err_as_their_pressures_do(edge, branch):
+    """Next to no pressure a thousandth of what it is held against is all of it: of mu that was up to 265 times the estimate."""
+    of = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8), hystrip.Level(1e-5, 1e-6)
+    how = {"velocity": np.array([3.2e-3, 1e-2]), "edge": edge, "branch": branch}
+    D = hystrip.solve(*of, pressure=0.05, rtol=1e-9, **how).penetration
+    found, finer = (hystrip.solve(*of, penetration=D, rtol=rtol, **how) for rtol in (1e-3, 1e-10))
+    assert (np.abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate).all()
+    assert (found.error_estimate > found.tau_error / np.abs(found.pressure)).all()
+    assert (found.error_estimate < 0.1 * found.mu).all()
+
+
+def test_a_friction_coefficient_is_not_known_where_the_pressure_of_a_penetration_may_be_zero():
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    level, how = hystrip.Level(1e-5, 1e-6), {"velocity": 1e-2, "edge": "constitutive"}
+    D = hystrip.solve(material, adhesion, level, pressure=1e-9, rtol=1e-10, **how).penetration
+    found = hystrip.solve(material, adhesion, level, penetration=D, rtol=1e-2, **how)
+    assert found.error_estimate == np.inf and found.converged and np.isfinite(found.tau_error)
