@@ -23,8 +23,8 @@ class LevelRegimes:
     """Regimes of one level.
 
     ``area``: fraction of the nominal area that this level meets: all of it for level 1, of a lower one the contact of
-    the level above. ``contact``: fraction of the nominal area in contact on it, as these strips have it. ``shares``:
-    name of a regime -> its share of that, largest first, adding up to 1.
+    the level above, as the result has it. ``contact``: fraction of the nominal area in contact on it, as these strips
+    have it. ``shares``: name of a regime -> its share of that, largest first, adding up to 1.
     """
 
     area: float
@@ -53,7 +53,7 @@ def regimes_by_level(result: Any, at: int) -> list[LevelRegimes]:
         pressure, share = strips.in_contact(weight)
         contact = area * float(share.sum())
         found.append(LevelRegimes(area, contact, _shares(strips.regimes, weight, off)))
-        area = contact
+        area = float(np.ravel(result.contact_by_level[i])[at])
         if not pressure.size:
             break
     return found

@@ -155,7 +155,9 @@ def _closer(result: Any) -> list[str]:
     for number, each in enumerate(regimes, start=1):
         place = "all the area" if number == 1 else f"the contact of level {number - 1}, {100 * each.area:.3g} % of the area"
         out.append(f"           level {number} ({place}):")
-        out += [f"           {100 * share:6.3g} %  {name}" for name, share in each.shares.items()]
+        # known to a percent of the whole
+        shares_of = {name: f"{100 * share:.0f}" if share > 5e-3 else "<1" for name, share in each.shares.items()}
+        out += [f"           {share:>6} %  {name}" for name, share in shares_of.items()]
     return out
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.display import percent
 from hystrip.plots import save
 from hystrip.regimes_by_level import PULLED_OFF, regimes_by_level
 from hystrip.scene import load_scene
@@ -97,12 +98,16 @@ def test_regimes_of_every_level_agree_with_the_result(branch):
     """Two levels in partial contact: the strips looked at have the contact that the averages have."""
     result = hystrip.solve(MATERIAL, ADHESION, LEVELS[:2], pressure=100, velocity=5e-3, branch=branch, rtol=1e-2)
     first, second = regimes_by_level(result, 0)
-    assert first.area == 1 and second.area == first.contact
+    assert first.area == 1 and second.area == result.contact_by_level[0]
     for i, each in enumerate((first, second)):
         assert each.contact == pytest.approx(result.contact_by_level[i], rel=0.02)
         assert sum(each.shares.values()) == pytest.approx(1, abs=1e-12)
     # adhesion lets level 1 pull: where its local pressure is below pull-off of level 2 there is no contact
     assert 0.2 < second.shares[PULLED_OFF] < 0.3
+    # one text tells one contact of level 1, and no more digits of shares than are known
+    text = result.summary()
+    assert f"(the contact of level 1, {percent(result.contact_by_level[0])} of the area)" in text
+    assert f"{100 * second.shares[PULLED_OFF]:6.0f} %  {PULLED_OFF}" in text
 
 
 @pytest.mark.parametrize("p_0", [90.0, 1e5])
