@@ -68,10 +68,12 @@ class ContactMap:
     cell: Cell
 
     def __repr__(self) -> str:
-        level, shares = self.cell.level, [float(np.mean(each)) for each in (self.contact, self.adhesion)]
+        # the last row and column are the first ones again; so many points tell two digits
+        level, shares = self.cell.level, [100 * float(np.mean(each[:-1, :-1])) for each in (self.contact, self.adhesion)]
+        contact, adhesion = (f"{float(f'{share:.2g}'):g} %" for share in shares)
         return (
             f"ContactMap: {self.x.size} x {self.y.size} points, l = {level.l:g} m, h = {level.h:g} m, D = {self.cell.D:.4g} m, "
-            f"V = {self.cell.V:g} m/s: {100 * shares[0]:.3g} % in contact, {100 * shares[1]:.3g} % in adhesion"
+            f"V = {self.cell.V:g} m/s: {contact} in contact, {adhesion} in adhesion"
         )
 
     def plot(self) -> Figure:
