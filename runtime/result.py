@@ -32,7 +32,8 @@ class Result:
     pressure : nominal pressure, Pa; penetration : D of level 1, m (NaN below pull-off)
     contact_fraction : fraction of the nominal area in contact on every level: the real contact
     contact_by_level, adhesion_by_level : fractions of the nominal area in contact and in adhesion on each level, (levels, ...),
-        within ``rtol`` of that area; without adhesion within the larger of ``rtol`` and 1e-4 of themselves
+        within ``rtol`` of that area; without adhesion within the larger of ``rtol`` and 1e-4 of it,
+        which small ones are not to as many digits: ``solve_level`` tells what those of one level err by
     pulled_off : the pressure lies below pull-off: no contact, mu = 0
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu: of tau over the pressure, and of that where a penetration was given (inf
