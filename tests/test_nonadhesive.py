@@ -116,6 +116,17 @@ def test_pressure_and_penetration_agree(name):
     assert not by_pressure.pulled_off.any() and (np.diff(by_pressure.penetration, axis=0) > 0).all()
 
 
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+def test_a_range_without_traction_is_no_adhesion(branch):
+    """Curves of loading were parted where a gap of that range would open: work to the last digits only."""
+    p = np.linspace(0, 2e3, 41)
+    laws = [
+        hystrip.friction_law(SOFT, adhesion, LEVEL, V=1e-3, branch=branch, rtol=1e-5)
+        for adhesion in (NONE, hystrip.Dugdale(p_0=0.0, delta_0=5e-10))
+    ]
+    assert np.array_equal(laws[0](p), laws[1](p)) and laws[0].strips == laws[1].strips
+
+
 def test_nothing_is_carried_without_pressure():
     r = hystrip.solve(SOFT, NONE, SIMILAR[:2], pressure=[-1.0, 0.0, 10.0], velocity=1e-3, rtol=1e-3)
     assert r.pulled_off.tolist() == [True, True, False] and r.tau[2] > 0 and (r.tau[:2] == 0).all()

@@ -37,7 +37,7 @@ def trace(
     """
     strips = np.zeros(columns.size, int)
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
-    if columns.branch == "loading":
+    if columns.branch == "loading" and columns.adhesion.p_0 > 0:
         intervals = _without_hidden(columns, intervals, strips)
     looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
