@@ -90,7 +90,7 @@ class Surface:
             if out:
                 # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
                 p = np.maximum(s.p_sat, out[0].p + s.lift)
-                D = p / self.at_level(i).K + 0.75 * self.levels[i].h
+                D = p / self.at_level(i).K + self.levels[i].mean_plane
                 means = (*means, out[0].means[:, 1:], zero)
             out.insert(0, Saturation(p, D, np.column_stack((p, *means))))
         return out
@@ -167,9 +167,9 @@ class _Solve:
     def _closed_form(self, full):
         """Points ``full`` (n,) are in saturated contact on every level."""
         i = slice(None) if full.all() else np.flatnonzero(full)
-        out, load, K, h = self.out, self.load[i], self.surface.at_level(0).K, self.surface.levels[0].h
-        out.p[i] = load if self.by_pressure else K * (load - 0.75 * h)
-        out.D[i] = load / K + 0.75 * h if self.by_pressure else load
+        out, load, K, depth = self.out, self.load[i], self.surface.at_level(0).K, self.surface.levels[0].mean_plane
+        out.p[i] = load if self.by_pressure else K * (load - depth)
+        out.D[i] = load / K + depth if self.by_pressure else load
         out.tau[:, i] = saturated_friction(self.surface.material, self.surface.levels, self.V[i])
         out.contact[:, i], out.closed_form[i] = 1.0, True
 

@@ -88,7 +88,7 @@ def _depths(result: Any, i: int, V: float, most: float) -> np.ndarray:
     low = -reach(a, K) if result.branch == "unloading" else -a.delta_0
     # at high speed saturation is far up, and what carries little lives near first contact
     near = low + min(2 * level.h + a.delta_0 + 2 * a.p_0 / K, full - low)
-    ends = (low, near, full, max(full, most / K + 0.75 * level.h))
+    ends = (low, near, full, max(full, most / K + level.mean_plane))
     pieces = [np.linspace(*ends[n : n + 2], count, endpoint=False) for n, count in enumerate(_DEPTHS)]
     return np.append(np.concatenate(pieces), ends[-1])
 

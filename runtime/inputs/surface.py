@@ -46,6 +46,12 @@ class Level:
         """Whether there is no wave to speak of: friction goes with ``k h^2``, and this one's is below any number."""
         return self.k * self.h**2 <= 1 / LARGEST
 
+    @property
+    def mean_plane(self) -> float:
+        """Depth of the mean plane below the crests, m: in complete contact ``p = K (D - mean_plane)`` (derivation:
+        ``level.saturation``)."""
+        return 0.75 * self.h
+
     def amplitude(self, theta: Numbers) -> Floats:
         """Amplitude A of the strip at ``theta = k y`` (Eq. 8), m: zero at ``theta = pi``."""
         return 0.5 * self.h * np.cos(np.multiply(0.5, theta)) ** 2

@@ -66,7 +66,7 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Penetrations:
     """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), refined with
     averages to ``rtol``."""
     saturated = columns.saturated
-    out = Penetrations.at(np.where(p >= saturated.p_sat, p / columns.material.K + 0.75 * columns.level.h, np.nan))
+    out = Penetrations.at(np.where(p >= saturated.p_sat, p / columns.material.K + columns.level.mean_plane, np.nan))
     # without adhesion there is no contact at no pressure, and adhesion holds no more than p_0
     p_0 = columns.adhesion.p_0
     rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | ((p_0 > 0) & (p >= -p_0))))
@@ -81,7 +81,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these. At rest crests carry
     ``K D^2/(2 pi h)`` (derivation: ``level.crests_at_rest``): pressures are nearly powers."""
     K, h = columns.material.K, columns.level.h
-    low, high = p / K, np.minimum(p / K + 0.75 * h, full)
+    low, high = p / K, np.minimum(p / K + columns.level.mean_plane, full)
     D, power, slope = np.sqrt(2 * np.pi * h * low), np.full(p.size, 2.0), np.full((p.size, len(QUANTITIES)), np.nan)
     if columns.family is not None:
         D, power = penetrations(columns, p)

@@ -52,7 +52,7 @@ def saturated_level(
     (left_at, D_left), tau_sat = foundation.saturation(p_0, *of), foundation.saturation_friction(*of)
     if branch == "loading" and p_0 > 0:
         D_sat = foundation.surely_saturated(p_0, *of)
-        return SaturatedLevel(foundation.K * (D_sat - 0.75 * level.h), D_sat, left_at + p_0, tau_sat)
+        return SaturatedLevel(foundation.K * (D_sat - level.mean_plane), D_sat, left_at + p_0, tau_sat)
     return SaturatedLevel(left_at, D_left, left_at + p_0, tau_sat)
 
 

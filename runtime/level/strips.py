@@ -199,4 +199,4 @@ def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) ->
     """
     level = columns.level
     p_max = np.maximum(p_max, -columns.adhesion.p_0)
-    return np.minimum(p_max / columns.material.K + 0.75 * level.h + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)
+    return np.minimum(p_max / columns.material.K + level.mean_plane + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)

@@ -161,7 +161,7 @@ def lower_laws(
     for columns, full in zip(levels, saturated, strict=True):
         carries, K, h = columns.level is not levels[-1].level, columns.material.K, columns.level.h
         columns = with_family(columns, cut_penetration(columns, p_max, full.D), friction, carries)
-        D = p_max / K + 0.75 * h
+        D = p_max / K + columns.level.mean_plane
         part = np.flatnonzero((p_max > 0) & (D < 0.5 * h * columns.family.s_sat))
         D[part] = (1 + _FURTHER) * penetrations(columns.at(part, D[part]), p_max[part])[0]
         reached.append(replace(columns, D=np.minimum(D, full.D)))
@@ -189,7 +189,7 @@ def _law(columns: LevelBatch, saturated: Saturation, rtol, friction, fraction) -
     p_top = np.where(np.isfinite(ends[1]), ends[1], 0.0).max(axis=1)
     edge = np.where(cuts[:, 1:] == h, ends[1], np.inf).min(axis=1)
     p_full = np.where(top >= saturated.D, saturated.p, np.inf)
-    breaks = np.stack((edge, K * (D_sat - 0.75 * h), p_full), axis=1)
+    breaks = np.stack((edge, K * (D_sat - columns.level.mean_plane), p_full), axis=1)
     breaks = np.sort(np.where(breaks < np.where(np.isinf(p_full), p_top, np.inf)[:, None], breaks, np.inf), axis=1)
     scales = np.concatenate((columns.scales[1:], [LARGEST]))
     return FamilyLaws(ends, series, breaks, p_full, np.column_stack((saturated.means[:, 1:], zero)), p_top, steepest, scales)
