@@ -134,14 +134,14 @@ def test_loading_at_next_to_no_pressure_stands_beyond_the_dip(i):
 def test_a_least_pressure_at_a_break_is_not_passed_over(falls, rises, monkeypatch):
     """A curve that is least at the break between two intervals, and only next to it below the least pressure before."""
 
-    def means(columns, intervals, D, strips):
+    def means(columns, intervals, D):
         values = np.where(D > 1, rises * (D - 1), falls * (1 - D))[:, None] - 0.005 * rises
         return values, np.zeros(values.shape), np.zeros(D.size, object)
 
     monkeypatch.setattr(curve, "_rough_means", means)
     breaks = np.array([0.0, 1.0, 2.0])
     whole = Intervals.of(np.zeros(2, int), breaks[:-1], breaks[1:], np.full(1, 1e-3), np.full((1, 1), 1e-3))
-    parts = curve.reentrant_parts(None, replace(whole, ceiling=np.zeros(2)), None, None)
+    parts = curve.reentrant_parts(None, replace(whole, ceiling=np.zeros(2)), None)
     assert ((parts.low <= 1) & (parts.high >= 1.005)).any()
 
 

@@ -155,18 +155,18 @@ def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) ->
     return most
 
 
-def locate_vanishing(columns: LevelBatch, some: Islands, strips: np.ndarray) -> np.ndarray:
+def locate_vanishing(columns: LevelBatch, some: Islands) -> np.ndarray:
     """Penetrations (n,) at which islands have shrunk so far that what is left does not tell; NaN: one is not absent at all.
 
-    Where a curve turns, if an island ends there; else where it is lost when followed. ``strips`` (per column) counts the work."""
-    out = _vanish_at_turns(columns, some, strips)
+    Where a curve turns, if an island ends there; else where it is lost when followed."""
+    out = _vanish_at_turns(columns, some)
     left = np.flatnonzero(np.isnan(out))
     if left.size:
-        out[left] = _followed(columns, some.take(left), strips)
+        out[left] = _followed(columns, some.take(left))
     return out
 
 
-def _followed(columns: LevelBatch, whole: Islands, strips: np.ndarray) -> np.ndarray:
+def _followed(columns: LevelBatch, whole: Islands) -> np.ndarray:
     """``locate_vanishing`` by ever smaller grids of strips across an island and along the way to its end, that move with it; the
     curves around are located, and a turn of one of them that is found so is the end."""
     number, out, here, low, high = np.arange(whole.size), np.full(whole.size, np.nan), whole, whole.low, whole.high
@@ -185,7 +185,7 @@ def _followed(columns: LevelBatch, whole: Islands, strips: np.ndarray) -> np.nda
         theta = np.clip((low[:, None] + (high - low)[:, None] * across)[:, None] + moved[:, :, None], 0.0, np.pi)
         D = (present[:, None] + way[:, None] * share)[:, :, None].repeat(_ACROSS, axis=2)
         which = np.repeat(here.column, _ALONG * _ACROSS)
-        np.add.at(strips, which, 1)
+        np.add.at(columns.spent, which, 1)
         codes = columns.at(which, D.ravel()).codes(np.arange(which.size), theta.ravel())
         has = codes.reshape(D.shape) == here.code[:, None, None]
         # the last along the way that any strip has it, and from where to where there
@@ -211,24 +211,24 @@ def _followed(columns: LevelBatch, whole: Islands, strips: np.ndarray) -> np.nda
     ended = np.flatnonzero(~np.isnan(out))
     whole = whole.take(ended)
     for at in (wider, tips):
-        _locate_around(columns, whole.column, *at[:, ended], strips)
+        _locate_around(columns, whole.column, *at[:, ended])
     low, high, present = wider[:, ended]
-    turns = _vanish_at_turns(columns, replace(whole, low=low, high=high, present=present), strips)
+    turns = _vanish_at_turns(columns, replace(whole, low=low, high=high, present=present))
     out[ended] = np.where(np.isnan(turns), out[ended], turns)
     return out
 
 
-def _locate_around(columns: LevelBatch, column, low, high, D, strips: np.ndarray) -> None:
+def _locate_around(columns: LevelBatch, column, low, high, D) -> None:
     """Locate the curves between the middles of islands and their ends, thetas ``low`` and ``high`` (n,), at ``D`` (n,)."""
     theta = np.clip(np.stack((low, 0.5 * (low + high), high), axis=1), 0.0, np.pi)
-    np.add.at(strips, column, 3)
+    np.add.at(columns.spent, column, 3)
     answers = columns.at(np.repeat(column, 3), np.repeat(D, 3)).evaluate(np.arange(theta.size), theta.ravel())
     known = [v.reshape(*theta.shape, *v.shape[1:]) for v in answers]
     changes, row, _ = Changes.between(np.arange(D.size), theta, known)
     by_equation(columns.at(column[row], D[row]), changes, "A")
 
 
-def _vanish_at_turns(columns: LevelBatch, some: Islands, strips: np.ndarray) -> np.ndarray:
+def _vanish_at_turns(columns: LevelBatch, some: Islands) -> np.ndarray:
     """Penetrations at which islands (n,) end at the turn of a curve, the one nearest to where they are absent; NaN where no turn
     has them on the one side and not on the other."""
     turns, column, out = columns.crossings.turned(columns), some.column, np.full(some.size, np.nan)
@@ -238,7 +238,7 @@ def _vanish_at_turns(columns: LevelBatch, some: Islands, strips: np.ndarray) -> 
     island, turn = np.nonzero(inside & (theta > some.low[:, None]) & (theta < some.high[:, None]))
     if island.size:
         beside = D[turn] + _ASIDE * away[island] * np.array([[-1], [1]])
-        np.add.at(strips, column[island], 2)
+        np.add.at(columns.spent, column[island], 2)
         at = columns.at(np.tile(column[island], 2), beside.ravel())
         has = at.codes(np.arange(at.size), np.tile(theta[turn], 2)).reshape(2, -1) == some.code[island]
         ends = np.flatnonzero(has[0] & ~has[1])

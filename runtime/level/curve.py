@@ -35,27 +35,27 @@ def trace(
     Below the penetration at which the crest lets go, and where it falls between breaks that are close, they hold only what
     unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
-    strips = np.zeros(columns.size, int)
+    columns = columns.counting()
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     if columns.branch == "loading" and columns.adhesion.p_0 > 0:
-        intervals = _without_hidden(columns, intervals, strips)
+        intervals = _without_hidden(columns, intervals)
     looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
         # where strips let go one after another while the pressure rises it falls over penetration, which is no part of a law
         narrow = np.flatnonzero(~looked & (intervals.width < _NARROW * columns.level.h))
         if narrow.size:
             D, each = intervals.take(narrow).evenly(np.array(_APART)), intervals.take(np.repeat(narrow, 2))
-            low, high = _rough_means(columns, each, D.ravel(), strips)[0][:, 0].reshape(-1, 2).T
+            low, high = _rough_means(columns, each, D.ravel())[0][:, 0].reshape(-1, 2).T
             looked[narrow] = low > high
-    pieces = interpolate(columns, intervals.take(~looked), strips, budget)
+    pieces = interpolate(columns, intervals.take(~looked), budget)
     if looked.any():
-        tops, parts = _below_known(columns, intervals.take(looked), pieces, strips)
-        rest = interpolate(columns, reentrant_parts(columns, parts, strips, budget), strips)
-        pieces = [a + b + c for a, b, c in zip(pieces, interpolate(columns, tops, strips, budget), rest, strict=True)]
-    return pieces, strips
+        tops, parts = _below_known(columns, intervals.take(looked), pieces)
+        rest = interpolate(columns, reentrant_parts(columns, parts, budget))
+        pieces = [a + b + c for a, b, c in zip(pieces, interpolate(columns, tops, budget), rest, strict=True)]
+    return pieces, columns.spent
 
 
-def _below_known(columns: LevelBatch, parts: Intervals, pieces: list[list[Piece]], strips) -> tuple[Intervals, Intervals]:
+def _below_known(columns: LevelBatch, parts: Intervals, pieces: list[list[Piece]]) -> tuple[Intervals, Intervals]:
     """The ``parts`` under the least pressure of the ``pieces`` above each, their ceiling; and first, taken from them, the tops of
     those in which the pressure goes on falling below the break, maybe for less than a look shows."""
     least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
@@ -64,7 +64,7 @@ def _below_known(columns: LevelBatch, parts: Intervals, pieces: list[list[Piece]
     which = np.flatnonzero([high in (low for low, _ in row) for row, high in zip(above, parts.high, strict=True)])
     tops = parts.take(which)
     if which.size:
-        values, errors, _ = _rough_means(columns, tops, tops.high - _TOP * tops.width, strips)
+        values, errors, _ = _rough_means(columns, tops, tops.high - _TOP * tops.width)
         falls = (values + DOUBT * errors)[:, 0] < tops.ceiling
         rest, tops = tops.take(falls).split((tops.high - _APART[0] * tops.width)[falls], soft=True)
         parts.high[which[falls]], parts.inner_high[which[falls]] = rest.high, True
@@ -91,7 +91,7 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
     return intervals, crest
 
 
-def _without_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarray) -> Intervals:
+def _without_hidden(columns: LevelBatch, intervals: Intervals) -> Intervals:
     """The intervals ending where gaps that adhere throughout open, if they end little above: with short memory all strips let go
     there at once and the pressure falls. Above that an interval of its own, unless loading surely met more pressure before."""
     K, h = columns.material.K, columns.level.h
@@ -106,7 +106,7 @@ def _without_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
         beside = np.minimum(np.maximum(upper.atol[:, :1] / K, nearest) / width, _APART[0])
         shares = np.concatenate((beside * [-1, 1], [_APART] * upper.size), axis=1)
         D, each = (opens + shares * width).ravel(), upper.take(np.repeat(np.arange(upper.size), 4))
-        values, errors, _ = _rough_means(columns, each, D, strips)
+        values, errors, _ = _rough_means(columns, each, D)
         low, high = (each[:, 0].reshape(-1, 4) for each in (values - errors, values + errors))
         # pressure rises by K times the penetration at most
         most = high[:, 1:] + K * width * np.diff(shares[:, 1:], axis=1, append=1.0)
@@ -116,12 +116,12 @@ def _without_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
     return parts.take(parts.width > nearest)
 
 
-def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarray, budget: ErrorBudget | None) -> Intervals:
+def reentrant_parts(columns: LevelBatch, intervals: Intervals, budget: ErrorBudget | None) -> Intervals:
     """The parts of the ``intervals`` that unloading may come to after the least pressure before each, its ceiling, as coarse as
-    the ``budget`` allows; ``strips`` (per column) counts the work."""
+    the ``budget`` allows."""
 
     def looked(stage: Stage) -> Stage:
-        return sampled([stage], Intervals.evenly, lambda parts, D: _rough_means(columns, parts, D, strips))[0]
+        return sampled([stage], Intervals.evenly, lambda parts, D: _rough_means(columns, parts, D))[0]
 
     stage = looked(Stage(intervals, _NODES))
     doubtful = np.isin(np.arange(intervals.size), [k for _, k, *_ in _parts([stage], BENDS[0])])
@@ -132,10 +132,10 @@ def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
     return out if budget is None else weighed(columns, budget, out, [values for *_, values in found])
 
 
-def _rough_means(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: np.ndarray) -> tuple:
+def _rough_means(columns: LevelBatch, intervals: Intervals, D: np.ndarray) -> tuple:
     """``means_in`` the intervals, as rough as a look may be."""
     rough = _ROUGH / intervals.rtol
-    return means_in(columns, replace(intervals, rtol=rough * intervals.rtol, atol=rough[:, None] * intervals.atol), D, strips)
+    return means_in(columns, replace(intervals, rtol=rough * intervals.rtol, atol=rough[:, None] * intervals.atol), D)
 
 
 def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.ndarray]]:

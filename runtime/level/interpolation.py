@@ -70,11 +70,11 @@ class Intervals(Ranges):
         return self.low[:, None] + self.width[:, None] * shares[2 * self.inner_low + self.inner_high]
 
 
-def means_in(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: np.ndarray) -> tuple:
+def means_in(columns: LevelBatch, intervals: Intervals, D: np.ndarray) -> tuple:
     """Means (m, q), their errors (m, q) and the zones met (m,) at penetrations ``D`` (m,) in the ``intervals`` (m,), to a share
-    of what these may err; ``strips`` (per column) counts the work."""
+    of what these may err."""
     means = level_means(columns.at(intervals.column, D), MEAN * intervals.rtol, MEAN * intervals.atol)
-    np.add.at(strips, intervals.column, means.strips)
+    np.add.at(columns.spent, intervals.column, means.strips)
     return means.values, means.errors, np.array([*means.zones, None], object)[:-1]
 
 
@@ -98,11 +98,11 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
 
 
 def interpolate(
-    columns: LevelBatch, intervals: Intervals, strips: np.ndarray, budget: ErrorBudget | None = None, first: int = _FIRST
+    columns: LevelBatch, intervals: Intervals, budget: ErrorBudget | None = None, first: int = _FIRST
 ) -> list[list[Piece]]:
-    """Pieces of each column that interpolate the means over the intervals, on at least ``first`` nodes; ``strips`` (per column)
-    counts the work. ``budget``: how much the pressures of an interval count."""
-    work = _Work(columns, strips, budget, first, [[] for _ in range(columns.size)])
+    """Pieces of each column that interpolate the means over the intervals, on at least ``first`` nodes. ``budget``:
+    how much the pressures of an interval count."""
+    work = _Work(columns, budget, first, [[] for _ in range(columns.size)])
     # a budget has to know what pressures an interval comes to before it says how well they have to be known
     stages = [Stage(intervals, first if budget is None else _LOOK)] if intervals.size else []
     while stages:
@@ -115,7 +115,6 @@ class _Work:
     """See ``interpolate``. Of its stages the parts are intervals, and known are means, their errors and zones."""
 
     columns: LevelBatch
-    strips: np.ndarray
     budget: ErrorBudget | None
     first: int
     pieces: list[list[Piece]]
@@ -123,7 +122,7 @@ class _Work:
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
         going, divided = [], []
-        for stage in sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D, self.strips)):
+        for stage in sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D)):
             if stage.n > _LOOK:
                 left, goal, hopeless = self._converged(stage)
                 divided.append((left.take(hopeless), goal[hopeless]))
@@ -152,7 +151,7 @@ class _Work:
         # pressure rises by K times the penetration at most: across what is so narrow it falls, which is no part of a branch
         jump = ~done & (intervals.width <= _NARROWEST * np.maximum(np.abs(intervals.high), columns.level.h))
         done |= jump
-        ended = ~done & (self.strips[column] > CURVE_LIMIT)
+        ended = ~done & (columns.spent[column] > CURVE_LIMIT)
         if ended.any():
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
@@ -172,7 +171,7 @@ class _Work:
         """The intervals divided where something appears or vanishes between two nodes, away from the crest, or in halves."""
         intervals, zones, nodes = stage.parts, stage.known[2], stage.parts.at(interior_nodes(stage.n))
         seen = [(k, each) for k, D in enumerate(nodes) for each in islands(int(intervals.column[k]), D, zones[k], goal[k])]
-        found = locate_vanishing(self.columns, Islands.joined([each for _, each in seen]), self.strips) if seen else np.empty(0)
+        found = locate_vanishing(self.columns, Islands.joined([each for _, each in seen])) if seen else np.empty(0)
         parts = []
         for k in range(intervals.size):
             rest, breaks = intervals.take([k]), [D for (i, _), D in zip(seen, found, strict=True) if i == k]

@@ -96,12 +96,12 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
     """``invert`` with adhesion: to where the curve passes the pressure first, for all that is known of it once it is refined."""
     h, q, unloading, bottom = columns.level.h, columns.scales.size, columns.branch == "unloading", first_contact(columns)
-    out, left, strips, floor = Penetrations.at(p * np.nan), np.arange(p.size), np.zeros(p.size, int), 1e-3 * columns.scales[0]
+    out, left, floor, columns = Penetrations.at(p * np.nan), np.arange(p.size), 1e-3 * columns.scales[0], columns.counting()
     size, ways = np.abs(p) + floor, [growing(bottom, top, _NEXT * h, unloading) for top in cut_penetration(columns, p, full)]
     goal = np.maximum(_ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
     walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]
     while left.size:
-        _go_along(columns, [walks[i] for i in left], strips)
+        _go_along(columns, [walks[i] for i in left])
         nowhere = Root(np.nan, 0.0, np.zeros(q))
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or nowhere for i in left), strict=True)))
         found = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
@@ -115,8 +115,8 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     return out
 
 
-def _go_along(columns: LevelBatch, walks: list[Walk], strips: np.ndarray) -> None:
-    """All walks together, part by part, to where their curves first pass their pressures; ``strips`` (n,) counts the work."""
+def _go_along(columns: LevelBatch, walks: list[Walk]) -> None:
+    """All walks together, part by part, to where their curves first pass their pressures."""
     bottom = first_contact(columns)
     while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
         if fresh := [walk for walk in going if walk.now is None]:
@@ -130,10 +130,10 @@ def _go_along(columns: LevelBatch, walks: list[Walk], strips: np.ndarray) -> Non
         column, goal = np.repeat([(walk.column, walk.goal) for walk in going], [walk.now.shape[1] for walk in going], axis=0).T
         atol = np.column_stack((goal, np.full((low.size, columns.scales.size - 1), LARGEST)))
         intervals = Intervals(low, high, column.astype(int), *(v > 0 for v in inner), 0 * low, atol, np.full(low.size, np.inf))
-        pieces = interpolate(columns, intervals, strips, first=_FIRST)
+        pieces = interpolate(columns, intervals, first=_FIRST)
         known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], columns.branch == "unloading")
         for walk, row in zip(going, known, strict=True):
-            walk.go_on(pieces[walk.column], row, bool(strips[walk.column] > CURVE_LIMIT))
+            walk.go_on(pieces[walk.column], row, bool(columns.spent[walk.column] > CURVE_LIMIT))
 
 
 def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = False):
