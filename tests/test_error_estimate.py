@@ -17,6 +17,8 @@ from hystrip.level.strips import QUANTITIES
 from hystrip.numerics.chebyshev import coefficients, flat_ended, interpolation_errors, lobatto
 from hystrip.numerics.quadrature import by_rules, interior_nodes, mapped, mapped_weights, sum_errors
 
+#: what is no layer next to an end
+SMOOTH = np.zeros(1, bool)
 TOOLS = Path(__file__).resolve().parents[1] / "tools"
 
 #: functions on [0, 1] with their integrals: smooth, ends like square roots, nearly singular, kinks and jumps that nobody marked
@@ -38,7 +40,7 @@ def test_sum_errors_bound_the_error(name, n):
     function, exact = FUNCTIONS[name]
     values = function(mapped(interior_nodes(n)))
     error = abs(mapped_weights(n) @ values - exact)
-    estimate = sum_errors(values[None, :, None], np.zeros((1, 1)))[0, 0]
+    estimate = sum_errors(values[None, :, None], np.zeros((1, 1)), SMOOTH)[0, 0]
     assert error <= estimate + 1e-15 * max(exact, 1) * n
 
 
@@ -48,7 +50,7 @@ def test_sum_errors_are_not_spoiled_by_a_rougher_quantity(n):
     x = mapped(interior_nodes(n))
     both = np.stack((1 / (1.3 - x), (1.02 - x) ** 0.5), axis=1)
     exact = np.array([np.log(1.3 / 0.3), (1.02**1.5 - 0.02**1.5) / 1.5])
-    error, estimate = np.abs(mapped_weights(n) @ both - exact), sum_errors(both[None], np.zeros((1, 2)))[0]
+    error, estimate = np.abs(mapped_weights(n) @ both - exact), sum_errors(both[None], np.zeros((1, 2)), SMOOTH)[0]
     assert (error <= estimate + 1e-15 * n).all()
     assert estimate[0] < 0.2 * estimate[1]
 
@@ -60,7 +62,7 @@ def test_sum_errors_see_a_layer_at_an_end_that_falls_slowly(n, thin):
     t = interior_nodes(n)
     function = lambda t: np.exp(mapped(t)) + 0.1 * np.sqrt(mapped(t) + thin)  # noqa: E731
     error = abs(mapped_weights(n) @ function(t) - (np.e - 1 + 0.1 * ((1 + thin) ** 1.5 - thin**1.5) * 2 / 3))
-    assert error <= sum_errors(function(t)[None, :, None], np.zeros((1, 1)))[0, 0] + 1e-15
+    assert error <= sum_errors(function(t)[None, :, None], np.zeros((1, 1)), SMOOTH)[0, 0] + 1e-15
 
 
 def test_a_first_change_that_is_small_by_chance_is_not_believed():
@@ -82,7 +84,7 @@ def test_sums_that_fall_slowly_miss_what_is_left_of_the_series():
 
 def test_constants_and_lines_are_summed_without_error():
     for values in (np.ones(7), mapped(interior_nodes(8))):
-        assert sum_errors(values[None, :, None], np.zeros((1, 1)))[0, 0] < 1e-15
+        assert sum_errors(values[None, :, None], np.zeros((1, 1)), SMOOTH)[0, 0] < 1e-15
 
 
 def test_rounding_of_one_quantity_does_not_spoil_another():
@@ -90,7 +92,7 @@ def test_rounding_of_one_quantity_does_not_spoil_another():
     t = interior_nodes(32)
     constant = 1 + 1e-16 * np.random.default_rng(1).integers(-1, 2, t.size)
     both = np.stack((np.exp(mapped(t)), constant), axis=1)[None]
-    assert sum_errors(both, np.zeros((1, 2)))[0, 0] < 1e-14
+    assert sum_errors(both, np.zeros((1, 2)), SMOOTH)[0, 0] < 1e-14
 
 
 STIFF = hystrip.HalfSpace(1e6, 0.5, [107086.0], [2.56047e-6])
@@ -123,7 +125,7 @@ def _interpolated(function, n):
     """Largest error of the interpolant on n + 1 nodes, and the estimate of it."""
     c = coefficients(function(lobatto(n))[:, None])
     t = np.linspace(0, 1, 1001)
-    return np.abs(chebval(2 * t - 1, c[:, 0]) - function(t)).max(), interpolation_errors(c[None], np.zeros((1, 1)))[0, 0]
+    return np.abs(chebval(2 * t - 1, c[:, 0]) - function(t)).max(), interpolation_errors(c[None], np.zeros((1, 1)), SMOOTH)[0, 0]
 
 
 @pytest.mark.parametrize("n", [8, 16, 32])

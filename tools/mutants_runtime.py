@@ -258,6 +258,20 @@ MUTANTS = (
         "test_pull_off.py",
     ),
     Mutant(
+        "few nodes tell how fractions of the surface end",
+        "numerics/quadrature.py",
+        " & ((n >= _MANY) | ~layered[:, None])",
+        "",
+        "test_error_estimate.py",
+    ),
+    Mutant(
+        "a pressure that a penetration takes is taken to be exact",
+        "solve.py",
+        "np.abs(np.where(loaded, mu, 0.0)) * points.p_error",
+        "0.0",
+        "test_error_estimate.py",
+    ),
+    Mutant(
         "contact ends earlier than in the orbit that is always engaged",
         "orbit/engine.py",
         "orbit.a + STABLE",

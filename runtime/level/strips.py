@@ -174,8 +174,10 @@ class LevelBatch:
 
     @property
     def fractions(self) -> np.ndarray:
-        """Which quantities are fractions of the surface: those after each friction."""
-        return np.sort(np.concatenate((self.frictions + 1, self.frictions + 2)))
+        """Which quantities are fractions of the surface, (q,): the two after each friction."""
+        out = np.zeros(self.scales.size, bool)
+        out[self.frictions + 1] = out[self.frictions + 2] = True
+        return out
 
 
 @dataclass(frozen=True)

@@ -26,9 +26,9 @@ from .rounding import EPS
 #: fastest pace believed of coefficients, by number of nodes, and of those that fall more slowly at the end than before, as where
 #: there is a layer; and the slowest that is told apart from a slower one
 _FASTEST, _LAYERED, _SLOWEST = {8: 0.45, 16: 0.42, 32: 0.65}, 0.65, 0.97
-#: number of nodes from which on coefficients are many, fewer may be small by chance; and the ratio of their last ones to the
-#: middle ones below which they surely fall geometrically
-_MANY, _GEOMETRIC = 16, 0.05
+#: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
+#: ones below which they surely fall geometrically
+_MANY, _GEOMETRIC = 16, (0.15, 0.05)
 #: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
 _POWER, _TURNS = 0.2, 2.5
 #: how much more is feared than what is left at the pace of coefficients; share of the noise below which they show no pace
@@ -167,12 +167,13 @@ def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
     return c[end - size : end].max(axis=0)
 
 
-def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """Error of the sums over nodes, per width, (p, q), of ``values`` (p, n - 1, q); ``noise`` (p, q): changes that don't matter.
+def sum_errors(values: np.ndarray, noise: np.ndarray, layered: np.ndarray) -> np.ndarray:
+    """Error of the sums over nodes, per width, (p, q), of ``values`` (p, n - 1, q); ``noise`` (p, q): changes that don't matter;
+    ``layered`` (q,): what may be a layer next to an end, of which few nodes see next to nothing.
 
     The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
-    last, which is slower where a layer next to an end is all that is left. Where many coefficients fall geometrically the second
-    is believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger. A run of
+    last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
+    believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger. A run of
     coefficients may be small by chance, where they come and go: no error is less than sums on half and a quarter of the nodes
     tell, there at the pace of sums that converge geometrically, elsewhere at that of any (``extrapolated``).
     """
@@ -200,7 +201,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     size = shared_size(_last(c, many), _last(shape, many), amplitude)
     first = size * np.interp(since, *_left(n, True))
     second = shared_size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
-    sure = (ratio < _GEOMETRIC) & (n >= _MANY)
+    sure = (ratio < _GEOMETRIC[int(n >= _MANY)]) & ((n >= _MANY) | ~layered[:, None])
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
     slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
