@@ -302,8 +302,8 @@ MUTANTS = (
     Mutant(
         "errors of an average are a hundredth",
         "level/averages.py",
-        "error = width * sum_errors(values, 0.1 * self.atol[state]) + rounding",
-        "error = 0.01 * width * sum_errors(values, 0.1 * self.atol[state]) + rounding",
+        "error = width * sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + rounding",
+        "error = 0.01 * width * sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + rounding",
         "test_reference_levels.py",
     ),
     Mutant(
