@@ -249,6 +249,22 @@ def test_the_error_of_a_law_is_in_the_error_of_what_it_carries():
     assert (moved > 10.0).all() and (moved * CANCELLED <= 1.02 * one[:, -1]).all()
 
 
+def test_the_error_of_a_law_counts_in_full_where_all_pressures_are_alike():
+    """Level 1, in complete contact, presses level 2 with 3.3 to 6.7 kPa, much of a piece of its law; or, all but flat, with 5 kPa
+    everywhere: there nothing cancels."""
+    law = LowerLevelLaws(_stepwise(BREAKS[1], 2e4, 6e4, (0.0, 500.0)), RTOL, SCALES)
+
+    def known(h):
+        level = hystrip.Level(l=10e-6, h=h)
+        D = np.full(1, 5e3 / SLS.K + level.mean_plane)
+        columns = LevelBatch(SLS, WEAK, level, "continuous", "unloading", np.full(1, 1e-4), D)
+        strips = columns.solve(np.zeros(5, int), np.linspace(0.0, 1.0, 5))
+        assert strips.touching[1].full.all()
+        return law.over_contact(strips, np.zeros(5, int))[:, -1]
+
+    assert (known(1e-12) >= 500 * (1 - 1e-9)).all() and (known(2e-6) < 250).all()
+
+
 @pytest.mark.parametrize(
     ("T_sigma", "p_0", "delta_0", "wavelength", "p", "V", "rtol"),
     [
