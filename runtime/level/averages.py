@@ -187,7 +187,7 @@ class _Work:
         sums = panels.sums(values)
         width, state = panels.width[:, None], panels.state
         rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
-        # where a zone ends pressure and friction vanish, and the share of it need not
+        # fractions may be layers next to where a zone ends, across which pressure, K mean(w), and friction go on smoothly
         error = width * sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + rounding
         goal = goal[state]
         done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
