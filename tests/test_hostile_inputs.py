@@ -77,12 +77,15 @@ SCENES = [  # what stands in place of "K = 1e9", what the message says
     ("a" + ".a" * 100_000 + " = 1", ["a key of at most 16 parts"]),
     ("[" + ".".join("a" * 100_000) + "]", ["a key of at most 16 parts"]),
     ('"' + "k" * 100_000 + '" = 1', ["unknown key"]),
-    ("K = 1e9\nx = '" + "a" * 2_000_000 + "'", ["at most 1 MiB"]),
-    ("K = [" + "1," * 200_000 + "]", ["material.K", "single number"]),
-    ("[[levels]]\nl = 1\nh = 1\n" * 20_000, ["levels", "at most 100"]),
-    ('K = "' + '\\"' * 300_000, ["not valid TOML"]),
-    ('K = """' + '\\"""' * 200_000, ["not valid TOML"]),
-    ("K = '''" + "''" * 300_000, ["not valid TOML"]),
+    ("K = 1e9\nx = '" + "a" * 2_000_000 + "'", ["at most 512 KiB"]),
+    ("K = [" + "1," * 200_000 + "]", ["at most 25000 values"]),
+    ("K = [" + "1," * 24_900 + "]", ["material.K", "single number"]),
+    ("[[levels]]\nl = 1\nh = 1\n" * 20_000, ["at most 25000 values"]),
+    ("[[levels]]\nl = 1\nh = 1\n" * 12_400, ["levels", "at most 100"]),
+    ("K = 1e9\n" + "".join(f"a{i} = 1\n" for i in range(30_000)), ["at most 25000 values"]),
+    ('K = "' + '\\"' * 260_000, ["not valid TOML"]),
+    ('K = """' + '\\"""' * 130_000, ["not valid TOML"]),
+    ("K = '''" + "''" * 260_000, ["not valid TOML"]),
 ]
 
 
