@@ -74,7 +74,7 @@ def bounds_from_engaged(cycle):
     """Bounds from the orbit that would be engaged all along if gaps had no limit; NaN where that saturates."""
     s = cycle.strips
     without_limit = replace(s, delta_0=np.full(s.size, 1e12), snaps=np.zeros(s.size, bool))
-    return bounds_after_contact(kernel, cycle, solve_strips(kernel, without_limit, True).a + STABLE)
+    return bounds_after_contact(kernel, cycle, solve_strips(kernel, without_limit, True).a + STABLE, np.zeros(s.size))
 
 
 def proven(cycle, orbit):
@@ -225,6 +225,25 @@ def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
         assert (orbit.a <= bounds.a[index] + 1e-9)[met].all() and (orbit.c <= bounds.c[index] + 1e-9)[met].all()
         seen += np.count_nonzero(met)
     assert seen > 200
+
+
+def test_no_orbit_adheres_longer_than_the_one_that_is_not_let_go_and_none_touches_where_that_does_not():
+    """Strips that would adhere all along without contact if gaps had no limit, ``D <= -p_0``, against the search."""
+    rng = np.random.default_rng(41)
+    n = 6000
+    beta, J, p_0 = 10 ** rng.uniform(-3, 5, n), 10 ** rng.uniform(-6, -0.01, n), 10 ** rng.uniform(-4, 2, n)
+    delta_0 = np.where(rng.random(n) < 0.5, 10 ** rng.uniform(-4, 0.3, n), J * p_0 * 10 ** rng.uniform(-1, 1, n))
+    D = -p_0 - delta_0 * 10 ** rng.uniform(-6, 0, n) * rng.random(n)
+    s = made(beta * J, beta, J, p_0, delta_0, D, rng.random(n) < 0.5)
+    solved, cycle = solve_strips(kernel, s, True), adhesive_cycle(kernel, s)
+    code, bounds = solved.code, orbit_bounds(kernel, cycle)
+    assert np.isin(code, [CODE[regime] for regime in ("a", "af", "f")]).all() and np.count_nonzero(s.snaps) > 300
+    index = np.flatnonzero(code != CODE["a"])
+    assert (holds_an_orbit(cycle.take(index)) == (code[index] == CODE["af"])).all()
+    let_go = code == CODE["af"]
+    assert np.count_nonzero(let_go) > 500
+    assert (solved.c <= bounds.c)[let_go].all() and (solved.d >= bounds.x - 1e-12)[let_go].all()
+    assert np.count_nonzero((bounds.c - solved.c)[let_go] < 1e-4) > 100
 
 
 def within_reach(seed: int, n: int) -> Strips:

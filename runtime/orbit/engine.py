@@ -132,7 +132,7 @@ class _Batch:
         if more.size:
             orbit, certified = self._unique(index[more], "ac")
             ends[more[certified]] = orbit.a[certified] + STABLE
-        out = bounds_after_contact(self.kernel, cycle, ends)
+        out = bounds_after_contact(self.kernel, cycle, ends, np.zeros(ends.size))
         out.x[np.isinf(out.x)] = np.nan  # there is an onset, however little rounding leaves of it
         return out
 
@@ -144,7 +144,9 @@ class _Batch:
         hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (not last))
         if hanging.size:
             none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
-        for sequence, may_be in (("acaf", ~cycle.direct), ("afc", cycle.direct), ("af", ~cycle.direct & ~cycle.touched)):
+        # where D <= -p_0 nothing touches (``orbit_bounds``)
+        zones = {"acaf": ~cycle.direct & (s.D > -s.p_0), "afc": cycle.direct, "af": ~cycle.direct & ~cycle.touched}
+        for sequence, may_be in zones.items():
             pick = np.flatnonzero(~none & may_be & np.isnan(known.x))
             if pick.size:
                 part, limits = cycle.among(pick), None if last else bounds.take(pick)

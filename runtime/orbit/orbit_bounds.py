@@ -21,7 +21,8 @@ before x, and there is none if c does not exist.
 
 Nor is any orbit more engaged than the one that would be engaged all along if gaps had no limit. Adhesion that is not released
 leaves every state more engaged after a period, so that an orbit's states rise, period by period, to those of that one: from the
-end of its contact adhesion ends and the next onset is met as above.
+end of its contact adhesion ends and the next onset is met as above. Where ``D <= -p_0`` that one has no contact: it adheres all
+along at ``w = -p_0``, and its gap is known at the crest.
 
 Each phase that is followed is further off than the event, by the sign of its function, whatever rounding does to that: contact or
 adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is. Bounds come as orbits: contact ends
@@ -54,21 +55,24 @@ _FAST = 60.0
 def orbit_bounds(kernel, cycle: Cycle, slowest: float = _FAST) -> Orbit:
     """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest``."""
     s, out = cycle.strips, Orbit.blank(cycle.size, engaged=True)
-    says = s.beta <= np.maximum(slowest, TWO_PI * s.p_0)
-    index = np.flatnonzero(says & (cycle.half_b > 0) & (cycle.half_b < np.pi))
+    hangs, arc = s.D <= -s.p_0, (cycle.half_b > 0) & (cycle.half_b < np.pi)
+    index = np.flatnonzero(hangs | (arc & (s.beta <= np.maximum(slowest, TWO_PI * s.p_0))))
     if index.size:
-        part = cycle.among(index)
+        part, hangs = cycle.among(index), hangs[index]
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            a = contact_end(kernel, part, part.centre - part.half_b, part.q_on, 1, part.centre + part.half_b)
-        out.put(index, bounds_after_contact(kernel, part, a))
+            begins = np.where(hangs, np.nan, part.centre - part.half_b)
+            a = contact_end(kernel, part, begins, part.q_on, 1, part.centre + part.half_b)
+        # without contact, at the crest
+        gap = np.where(hangs, np.minimum(-part.strips.D - part.strips.p_0, part.strips.delta_0), 0.0)
+        out.put(index, bounds_after_contact(kernel, part, np.where(hangs, 0.0, a), gap))
     return out
 
 
-def bounds_after_contact(kernel, cycle: Cycle, a) -> Orbit:
-    """Bounds for cycles of which it is known that contact ends before ``a`` in every orbit."""
+def bounds_after_contact(kernel, cycle: Cycle, a, gap) -> Orbit:
+    """Bounds for cycles of which it is known that in every orbit contact ends before ``a``, with this ``gap`` there or more."""
     out = Orbit.blank(cycle.size, engaged=True)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        out.a, out.c = a, adhesion_end(kernel, cycle, a, np.zeros(cycle.size), 1)
+        out.a, out.c = a, adhesion_end(kernel, cycle, a, gap, 1)
         out.engaged = np.isnan(out.c)
         go = np.flatnonzero(~out.engaged)
         out.x[go] = np.nan_to_num(next_onset(kernel, cycle.among(go), out.c[go], -1), nan=np.inf)
