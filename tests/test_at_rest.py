@@ -125,11 +125,10 @@ def test_a_search_that_gets_nowhere_ends(monkeypatch):
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
-@pytest.mark.parametrize("V", [0.0, 1e-30, 1e-20])
-def test_levels_at_rest(material, V):
+def test_levels_at_rest(material):
     levels = [hystrip.Level(1e-5, 1e-6), hystrip.Level(1e-6, 1e-7)]
     for adhesion in (hystrip.Dugdale(p_0=1000, delta_0=1e-8), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)):
         at = {"pressure": 1e3, "rtol": 1e-3, "edge": "constitutive"}
-        slow, still = (hystrip.solve(material, adhesion, levels, velocity=v, **at) for v in (1e-12, V))
-        assert still.converged.all() and abs(still.mu - slow.mu) <= still.error_estimate + slow.error_estimate + 1e-6
+        slow, still = (hystrip.solve(material, adhesion, levels, velocity=v, **at) for v in (1e-12, [0.0, 1e-30, 1e-20]))
+        assert still.converged.all() and (np.abs(still.mu - slow.mu) <= still.error_estimate + slow.error_estimate + 1e-6).all()
         still.summary()
