@@ -5,10 +5,12 @@ from __future__ import annotations
 import functools
 import importlib
 import itertools
+import json
 import shutil
 import sys
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import hystrip.derivation
 from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
@@ -40,7 +42,17 @@ def emitted() -> dict[str, str]:
 def audited() -> dict[str, str]:
     """The audit's pages as they should be, with the certificates and the measured figures that are checked in."""
     folder = generated_folder()
-    return audit_texts(derivations(), emitted(), read_certificates(folder), read_measured(folder))
+    return audited_with(read_certificates(folder), read_measured(folder))
+
+
+def audited_with(certificates: dict[str, Any], measured: dict[str, Any]) -> dict[str, str]:
+    """The audit's pages with these certificates and measured figures."""
+    return _audited_with(json.dumps((certificates, measured)))
+
+
+@functools.cache
+def _audited_with(figures: str) -> dict[str, str]:
+    return audit_texts(derivations(), emitted(), *json.loads(figures))
 
 
 def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:
