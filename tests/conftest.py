@@ -1,10 +1,15 @@
 """What several test files ask for by name."""
 
+import os
 import sys
 
 import pytest
 
 from hystrip.commands import entry
+
+# SymPy keeps a thousand results of each of its functions; the derivation and its changed copies ask for more again and again.
+# It reads this when it is imported, which is later.
+os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
 
 @pytest.fixture
