@@ -62,12 +62,15 @@ def groups(scene):
 
 def compare(scene, edge, outcome, periods):
     """Solve and iterate both branches of a scene; returns both solutions."""
-    alpha, beta, P0, Delta, delta = groups(scene)
-    n = alpha.size
+    _, _, P0, _, delta = groups(scene)
+    n = delta.size
+    # a period takes as long for few points as for many
+    deep = np.repeat([branch == "unloading" for branch in scenes.BRANCHES], n)
+    both = iterate(*np.tile(groups(scene), 2), np.full(2 * n, edge == "constitutive"), deep, periods)
     found = {}
-    for branch in scenes.BRANCHES:
+    for number, branch in enumerate(scenes.BRANCHES):
         s = found[branch] = scenes.solve(scene, edge, branch)
-        r = iterate(alpha, beta, P0, Delta, delta, np.full(n, edge == "constitutive"), branch == "unloading", periods)
+        r = both.take(slice(number * n, (number + 1) * n))
         settled = np.isfinite(r.remaining) & (r.remaining < AGREE * (1 + np.abs(delta) + P0))
         fractions = np.maximum(np.abs(r.contact - s.contact_fraction), np.abs(r.adhesion - s.adhesion_fraction))
         p = s.p_mean / (scene["K"] * scene["A"])

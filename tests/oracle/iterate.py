@@ -32,6 +32,9 @@ class Settled:
     remaining: np.ndarray
     contraction: np.ndarray
 
+    def take(self, index):
+        return Settled(*(values[index] for values in vars(self).values()))
+
 
 class Points:
     """One material point for each strip. ``zone``; ``s``: phase; ``value``: p in contact, w elsewhere, at ``s``."""
@@ -59,7 +62,7 @@ class Points:
     def start(self, deep):
         """Deep contact (a pressure above that of any orbit), or far from the surface."""
         size = 3 + np.abs(self.delta) + np.hypot(1, self.beta) + self.P0 + self.Delta
-        self.zone[:] = CONTACT if deep else FREE
+        self.zone[:] = np.where(deep, CONTACT, FREE)
         # free: w tends to +inf is least engaged, but any w above all orbits does
         self.value[:] = 2 * size
 
@@ -228,7 +231,8 @@ class Points:
 
 
 def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods):
-    """Iterate the period map from deep contact (``deep``) or from far below until every strip repeats, or for ``periods``."""
+    """Iterate the period map from deep contact (``deep``, of each strip) or from far below until every strip repeats, or for
+    ``periods``."""
     arrays = [np.asarray(v, float) for v in (alpha, beta, P0, Delta, delta)]
     points = Points(*arrays, np.asarray(constitutive, bool))
     points.start(deep)
