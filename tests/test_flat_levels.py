@@ -25,6 +25,11 @@ def _solve(adhesion, levels, material=SOLID, **load):
     return hystrip.solve(material, adhesion, levels, **load)
 
 
+@cache
+def _wavy_alone(adhesion, levels, branch):
+    return _solve(adhesion, levels, branch=branch)
+
+
 @pytest.mark.parametrize("adhesion", [NONE, STICKY], ids=["dry", "sticky"])
 @few
 @given(
@@ -36,8 +41,8 @@ def test_flat_levels_change_nothing(adhesion, wavy, heights, levels, branch):
     wavy = [i % levels for i in wavy]
     lengths = [1e-5 / 3**i for i in range(levels)]
     every = [(length, length / 12 if i in wavy else heights[i]) for i, length in enumerate(lengths)]
-    rest = [level for i, level in enumerate(every) if i in wavy]
-    flat, alone = (_solve(adhesion, some, branch=branch) for some in (every, rest))
+    rest = tuple(level for i, level in enumerate(every) if i in wavy)
+    flat, alone = _solve(adhesion, every, branch=branch), _wavy_alone(adhesion, rest, branch)
     assert flat.converged and alone.converged
     # where they touch late they are interpolated like others
     rounding = 2e-4 if branch == "loading" and adhesion is STICKY else 1e-14
@@ -93,21 +98,24 @@ def test_scenes_of_which_next_to_nothing_is_left(scene):
     result.summary()
 
 
+#: pressures at which a plane clings, Pa, and one at which it does not
+HELD, BEYOND = [-1.0, -8.0, 3.0], -10.1
+
+
 @cache
-def _loaded_alone(pressure: float) -> float:
+def _loaded_alone() -> np.ndarray:
     """Friction of the wave that the planes below carry, Pa."""
-    return float(_solve(STICKY, [(5e-7, 1e-7)], pressure=pressure, branch="loading").tau)
+    return _solve(STICKY, [(5e-7, 1e-7)], pressure=HELD, branch="loading").tau
 
 
 @pytest.mark.parametrize("height", [0.0, 1e-310, 1e-200, 1e-13])
 def test_a_plane_that_is_loaded_jumps_into_contact(height):
     """It clings at ``D = -delta_0``; from there on it carries ``K D``. (Parts of the way there once grew from no width.)"""
-    for pressure in (-1.0, -8.0, 3.0):
-        result = _solve(STICKY, [(1e-5, height), (5e-7, 1e-7)], pressure=pressure, branch="loading")
-        assert result.penetration == pytest.approx(pressure / SOLID.K, rel=1e-3) and not result.pulled_off
-        assert result.tau == pytest.approx(_loaded_alone(pressure), rel=1e-3)
-    beyond = _solve(STICKY, [(1e-5, height), (5e-7, 1e-7)], pressure=-10.1, branch="loading")
-    assert beyond.pulled_off and beyond.tau == 0 and (beyond.contact_by_level == 0).all()
+    result = _solve(STICKY, [(1e-5, height), (5e-7, 1e-7)], pressure=[*HELD, BEYOND], branch="loading")
+    assert result.pulled_off.tolist() == [False, False, False, True]
+    assert result.penetration[:3] == pytest.approx(np.array(HELD) / SOLID.K, rel=1e-3)
+    assert result.tau[:3] == pytest.approx(_loaded_alone(), rel=1e-3)
+    assert result.tau[3] == 0 and (result.contact_by_level[:, 3] == 0).all()
 
 
 def test_a_plane_clings_where_the_wave_on_it_has_let_go():
