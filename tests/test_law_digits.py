@@ -5,6 +5,9 @@ import pytest
 
 import hystrip
 
+# what these tests share is solved once, and not in every process
+pytestmark = pytest.mark.xdist_group("law digits")
+
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
 LEVEL = hystrip.Level(l=500e-9, h=100e-9)

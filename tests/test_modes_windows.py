@@ -166,6 +166,7 @@ def orbits(n, kind, count=1500):
     return s, Forced(kernel, s, in_order(np.concatenate(edges, axis=1)))
 
 
+@pytest.mark.xdist_group("orbits")  # which are solved once
 @pytest.mark.parametrize("rising", [True, False])
 @pytest.mark.parametrize(("n", "kind"), [*((n, "") for n in TIMES), (3, "far"), (3, "snap")])
 def test_what_hides_an_orbit_is_never_proven(n, kind, rising):

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+# one wheel for all, and not one in every process
+pytestmark = pytest.mark.xdist_group("wheel")
+
 ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = {"runtime": "hystrip", "derivation": "hystrip/derivation", "generated": "hystrip/generated"}
 SHIPPED = (".py", ".jinja", ".toml", ".lark", ".json", ".html", ".typed")

@@ -9,6 +9,9 @@ import pytest
 import hystrip
 from hystrip.scene import load_scene, parse_scene
 
+# what these tests share is solved once, and not in every process
+pytestmark = pytest.mark.xdist_group("paper")
+
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 LARGE, SMALL = hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)
 WEAK, STRONG = (hystrip.Dugdale(gamma=gamma, delta_0=1e-8) for gamma in (2.5e-5, 5e-5))

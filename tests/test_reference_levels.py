@@ -53,6 +53,7 @@ def test_level(case):
 
 @pytest.mark.parametrize("number", range(len(LEVELS)), ids=NAMES)
 @pytest.mark.parametrize("given", ["D", "p_mean"])
+@pytest.mark.xdist_group("closest")  # which are solved once
 def test_ten_digits(number, given):
     """At 1e-10 means are what they are at 1e-12. Unloading, those at the pressure of a penetration are those at the
     penetration."""

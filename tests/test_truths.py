@@ -13,6 +13,9 @@ import numpy as np
 import pytest
 from truths import answers, columns
 
+# what these tests share is solved once, and not in every process
+pytestmark = pytest.mark.xdist_group("truths")
+
 TOLERANCE = 1e-11
 #: groups are formed from rounded SI inputs and edges from several rounded steps: some tens of roundings
 CONDITION = 16
