@@ -25,7 +25,7 @@ class SingleTime(Foundation):
     fastest = 1e18
 
     def __init__(self, kernel: ModuleType, material: StandardLinearSolid):
-        self.kernel, self.material, self.K, self.J = kernel, material, material.K, material.J
+        self.kernel, self.material, self.K, self.J, self.L = kernel, material, material.K, material.J, material.L
         self.parameters, self.longest_time = (material.K, material.T_eps, material.T_sigma), material.T_eps
 
     @property
@@ -49,18 +49,19 @@ class SingleTime(Foundation):
         return rate * self.material.T_sigma, rate * self.material.T_eps
 
     def strips(self, rate, D, p_0, delta_0, edge, snaps):
-        m, steps = self.material, edge == "constitutive"
-        shared = (every(v, D.shape) for v in (*self.at_rate(rate * self.pace(rate)), m.J, m.L))
+        steps = edge == "constitutive"
+        shared = (every(v, D.shape) for v in (*self.at_rate(rate * self.pace(rate)), self.J, self.L))
         return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), snaps & steps)
 
     def fold(self, sequence, edges, strips):
         """The numerator of ``T'`` less its denominator, products of loads: all but linear next to where adhesion ends. With a
         short memory, which leaves nothing of a load but next to an edge, of the rates at which gaps pass their thresholds."""
+        loads, short = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)[-1], strips.beta < 1
+        if not short.any():
+            return loads
         cycle = adhesive_cycle(self.kernel, strips)
         linked = links(self.kernel, cycle, sequence, gap_zones(cycle, sequence), np.array(np.broadcast_arrays(*edges)))
-        rates = (step(*linked)[1] - 1) * linked[2, -1] * linked[2, -2]
-        loads = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)[-1]
-        return np.where(strips.beta < 1, rates, loads)
+        return np.where(short, (step(*linked)[1] - 1) * linked[2, -1] * linked[2, -2], loads)
 
     def moduli(self, strips):
         s = strips
