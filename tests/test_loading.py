@@ -250,6 +250,29 @@ def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, run):
         assert not (tmp_path / "out").exists()
 
 
+def test_a_solver_of_ones_own_is_checked_against_its_model(folder, run, monkeypatch):
+    """What stands beside the model file in its folder, not what the package ships; both are named, or none."""
+    import hystrip.derivation
+
+    model = folder.parent / "my_model.py"
+    model.write_text("from hystrip.derivation import prony_model\nMODEL = prony_model('my_rubber')\n")
+    seen = []
+    monkeypatch.setattr(hystrip.derivation, "check", lambda *at, models, progress: seen.append((*at, models)) or ())
+    status, out, _ = run("check", model, "--folder", folder)
+    assert status == 0 and "what the derivation emits" in out
+    ((checked, (own,)),) = seen
+    assert Path(checked) == folder and own.name == "my_rubber"
+    for arguments, says in (
+        ([model], "--folder: got None; allowed: the folder"),
+        (["--folder", folder], "MODEL: got None; allowed: the file"),
+        ([model, "--folder", folder.parent], "hystrip regenerate` wrote"),
+        ([folder / "absent.py", "--folder", folder], "a Python file that declares MODEL"),
+    ):
+        status, _, err = run("check", *arguments)
+        assert status == 2 and says in err
+    assert run("check")[0] == 0 and seen[1:] == [(None, None)]
+
+
 @pytest.mark.parametrize("text", ["{", "[1]"])
 def test_certificates_of_no_solver_are_refused_before_the_work(tmp_path, run, monkeypatch, text):
     monkeypatch.setattr("hystrip.derivation.regenerate", lambda *_, **__: pytest.fail("work before the folder was looked at"))

@@ -19,8 +19,8 @@ def command(
     """
     from ..errors import HystripError, InputError
     from ..files import refuse_unwritable, remove_left_folders
+    from .model_file import models_of
     from .progress import progress
-    from .signals import Terminated
 
     if model is not None and out is None:
         raise InputError("--out", None, "a folder for the solver of your model")
@@ -30,18 +30,7 @@ def command(
     folder = out if out is not None else Path(hystrip.generated.__file__).parent
     refuse_unwritable(folder, "--out")
     remove_left_folders(folder)
-    try:
-        models = None if model is None else hystrip.derivation.load_model(model)
-    except FileNotFoundError:
-        raise InputError("MODEL", str(model), "a Python file that declares MODEL") from None
-    except hystrip.derivation.DerivationError as error:
-        raise InputError("MODEL", str(model), f"a file that declares an admissible model: {error}") from None
-    except SystemExit as end:
-        if isinstance(end, Terminated):
-            raise
-        raise InputError("MODEL", str(model), "a file that declares MODEL and does not end the process (sys.exit)") from None
-    if models == ():
-        raise InputError("MODEL", str(model), "a file that declares at least one model")
+    models = models_of(model)
     try:
         hystrip.derivation.stored_bounds(folder)
     except (ValueError, TypeError, KeyError, AttributeError):
