@@ -169,6 +169,33 @@ def test_a_model_may_have_no_parameters_or_one_that_is_named_as_a_length_of_the_
     assert own.p_mean == pytest.approx(shipped.p_mean, rel=1e-12)
 
 
+def test_parameters_of_a_model_do_not_take_the_place_of_what_a_refused_strip_is(monkeypatch):
+    """A user's V hid the velocity, D the penetration; p_0 was hidden by the traction, a K that is none by the stiffness."""
+    names = {"V": "s", "D": "s", "p_0": "Pa/m", "K": "s", "G": "Pa/m"}
+
+    def material_modes(V, D, p_0, K, G):
+        return of_operators((1.0, V + K, V * K), (1 / p_0, (D + 1e-2) / p_0, D * 1e-2 / p_0))
+
+    kernel = SimpleNamespace(
+        MODEL="own",
+        MODES=2,
+        MODE_PARAMETERS=(),
+        MATERIAL={name: (unit, "own") for name, unit in names.items()},
+        material_modes=material_modes,
+    )
+    material = ModelMaterial(kernel, {"V": 3e-2, "D": 1e-3, "p_0": 1e9, "K": 2e-3, "G": 4.0})
+    foundation = foundation_of(hystrip.Prony(1e9, MODULI, TIMES))
+    foundation.material = material
+    refused = SimpleNamespace(certified=np.array([False]), size=1)
+    monkeypatch.setattr(type(foundation), "_solve", lambda *_: refused)
+    strip = (np.array([value]) for value in (1e-5, 1e-7, 2e-8, 1e-3, 2e3, 3e-7))
+    with pytest.raises(hystrip.SolverError) as error:
+        foundation.solve(*strip, "constitutive", "unloading")
+    own = "material.V=0.03, material.D=0.001, material.p_0=1000000000.0, material.K=0.002, G=4.0"
+    named = f"l=1e-05, A=1e-07, D=2e-08, V=0.001, {own}, K=1000000000.0, p_0=2000.0, delta_0=3e-07, edge="
+    assert f"strip 0: {named}" in str(error.value)
+
+
 def test_another_interface_is_refused_and_says_how_to_regenerate(folder):
     _edit(folder / "generalised.py", "INTERFACE = 1", "INTERFACE = 0")
     with pytest.raises(InputError, match="emitted for 0.*hystrip regenerate my_model.py --out"):

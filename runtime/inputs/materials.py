@@ -1,5 +1,6 @@
 """Materials that can be solved: which generated solver belongs to one, its parameters, the closures that determine its edges."""
 
+from collections.abc import Collection
 from types import ModuleType
 from typing import Any
 
@@ -51,12 +52,17 @@ def check_edge(material, edge: str) -> str:
     return edge
 
 
-def parameters(material) -> dict[str, Any]:
-    """Names and values of a material's parameters, one entry for each number (or array over strips)."""
+def parameters(material, apart: Collection[str] = ()) -> dict[str, Any]:
+    """Names and values of a material's parameters, one entry for each number (or array over strips).
+
+    ``apart``: names of what else is told beside them. A parameter that a model of one's own calls so, or ``K`` although it is not
+    the stiffness, has ``material.`` before its name.
+    """
     if isinstance(material, StandardLinearSolid):
         return {name: getattr(material, name) for name in ("K", "T_eps", "T_sigma")}
     if isinstance(material, ModelMaterial):
-        given = material.given
+        others = {*apart, "K"} if apart and material.given.get("K") != material.K else apart
+        given = {f"material.{name}" if name in others else name: value for name, value in material.given.items()}
     else:
         own = ("E", "nu") if isinstance(material, HalfSpace) else ("K",)
         given = {n: getattr(material, n) for n in (*own, "moduli", "times")}

@@ -112,8 +112,8 @@ class Foundation(ABC):
         bad = np.flatnonzero(~solved.certified)
         if bad.size:
             # an array that was spread over the strips in `flat` is not known by its own name any more
-            of_material = {n: v for n, v in parameters(self.material).items() if np.shape(v) in ((), shape)} | {"K": self.K}
-            inputs = (named | of_material | adhesion).items()
+            of_material = {n: v for n, v in parameters(self.material, named | adhesion).items() if np.shape(v) in ((), shape)}
+            inputs = (named | of_material | {"K": self.K} | adhesion).items()
             first = ", ".join(f"{n}={float(np.broadcast_to(v, shape)[bad[0]])!r}" for n, v in inputs)
             raise SolverError(
                 f"{bad.size} of {solved.size} strips could not be certified; the first, strip {bad[0]}: "
