@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import json
 import random
@@ -37,7 +38,7 @@ from hystrip.derivation.certificates.certify import measure_regimes
 from hystrip.derivation.certificates.material import measure_material
 from hystrip.derivation.emit import emit
 from hystrip.derivation.modes.jumps import closures
-from hystrip.derivation.modes.material import prony_series
+from hystrip.derivation.modes.material import admissibility, inadmissible_series, prony_series
 from hystrip.derivation.modes.states import exact_modes
 from hystrip.derivation.modes.symbols import J_0, J, enter, eta, leave, share
 from hystrip.derivation.printing import source
@@ -248,6 +249,21 @@ def test_a_model_given_by_operators_finds_its_times() -> None:
 def test_operators_that_make_no_passive_solid_are_refused_with_the_reason(Q, P, reason: str) -> None:
     with pytest.raises(DerivationError, match=rf"model 'bad' is refused: .*{reason}"):
         derive(operator_model("bad", (), Q, P))
+
+
+def test_operators_whose_times_are_equal_but_for_roundings_are_a_solid() -> None:
+    """Half of them were refused at regeneration as not passive, while the solver takes the same numbers."""
+    draw = random.Random(5)
+    for _ in range(40):
+        K, *times = (10 ** draw.uniform(low, high) for low, high in ((3, 10), (-4, 2), (-4, 2), (-4, 2)))
+        slow, lag = sorted(times[1:])
+        for of_w, of_p in (((times[0],), (times[0],)), (times[:2], times[:2]), ((times[0], lag), (times[0], slow))):
+            Q, P = (functools.reduce(np.convolve, ((1.0, time) for time in each), np.ones(1)) for each in (of_w, of_p))
+            own = operator_model("own", (), Q.tolist(), (P / K).tolist())
+            assert inadmissible_series(own) == [] and admissibility(own).checks
+            assert modes.of_operators(Q, P / K)[0] == pytest.approx(K, rel=1e-14)
+        beyond = operator_model("own", (), (1.0, times[0]), (1 / K, times[0] * (1 + 1e-14) / K))
+        assert any("passive" in reason for reason in inadmissible_series(beyond))
 
 
 @pytest.mark.parametrize(

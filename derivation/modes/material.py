@@ -3,7 +3,7 @@
 import sympy as sp
 
 from ..check import Claim, Derived, derived, holds, zero
-from ..model import Model, Roots, inadmissible, omega, rate, refuse
+from ..model import Model, Roots, inadmissible, omega, rate, refuse, rounded_to_zero
 from ..paper.record import CORRECTIONS
 from ..symbols import K, beta
 
@@ -147,10 +147,19 @@ def _not_interlaced(model: Model) -> list[str]:
     """The reason against operators whose coefficients are numbers and whose times are not real and interlaced."""
     if any(sp.sympify(c).free_symbols for c in (*model.Q, *model.P)):
         return []
-    Q, P = (sp.Poly(operator, rate).real_roots() for operator in (model.operator_w(), model.operator_p()))
+    floats = lambda c: c.replace(lambda part: part.is_Float, sp.Rational)  # noqa: E731  to have roots with all their digits
+    exact = {kind: [floats(sp.sympify(c)) for c in operator] for kind, operator in (("Q", model.Q), ("P", model.P))}
+    Q, P = (sp.Poly(sum(c * rate**n for n, c in enumerate(exact[kind])), rate).real_roots() for kind in "QP")
+    vanishes = lambda kind, root: rounded_to_zero(c * root**n for n, c in enumerate(exact[kind]))  # noqa: E731
     met = sorted([(root, "Q") for root in Q] + [(root, "P") for root in P], reverse=True)  # largest times first
-    order, n = "".join(kind for _, kind in met), len(model.Q) - 1
-    if len(Q) == n and order == ("QP" * n)[: len(order)] and len(P) >= n - 1:
+    n = len(model.Q) - 1
+    alternate = ("QP" * n)[: len(met)]
+    for k in range(len(met) - 1):  # equal times of an idle branch may have come out in the other order
+        one, other = met[k : k + 2]
+        if other[1] == alternate[k] != one[1] and (vanishes(other[1], one[0]) or vanishes(one[1], other[0])):
+            met[k : k + 2] = other, one
+    order = "".join(kind for _, kind in met)
+    if len(Q) == n and order == alternate and len(P) >= n - 1:
         return []
     return [
         "passive: the relaxation and retardation times, -1/roots of P and Q, must be real and alternate, a retardation "
