@@ -25,6 +25,7 @@ def strip_means(regime: Row, zones: Kernels) -> Kernel:
     added = [_added(zone, zones) for zone in regime.zones]
     pressed, height, work = (sp.Add(*parts) / PERIOD for parts in zip(*added, strict=True))
     mean_p = height if regime.touches else pressed
+    stable_work = _stable_work(regime)
     checks = [
         zero(
             "int p ds = int w ds + beta times the closing balance: mean p = mean w on an orbit",
@@ -37,6 +38,9 @@ def strip_means(regime: Row, zones: Kernels) -> Kernel:
             phases=regime.edges,
         ),
     ]
+    if forms := stable_work.atoms(either):
+        residuals = [written_out(short - wide) for _, short, wide in (form.args for form in forms)]
+        checks.append(zero("the forms for short zones and for wide ones are the same", residuals, phases=regime.edges))
     why = (
         "as the mean of w, equal to it on a closed orbit, because that sum holds no large terms that cancel."
         if regime.touches
@@ -44,7 +48,7 @@ def strip_means(regime: Row, zones: Kernels) -> Kernel:
     )
     return kernel(
         strip_means,
-        Formula(f"means_{regime.sequence}", (*regime.edges, *PARAMETERS), (mean_p, _stable_work(regime) / PERIOD)),
+        Formula(f"means_{regime.sequence}", (*regime.edges, *PARAMETERS), (mean_p, stable_work / PERIOD)),
         (as_derived(mean_p, zones), as_derived(work, zones)),
         *checks,
         statement=f"Means of a strip: {regime.title}. The mean pressure is computed {why}",
@@ -102,7 +106,9 @@ def _work(regime: Row, raised: sp.Expr) -> sp.Expr:
             pressure = sp.expand(zone.entry - p_0 + raised)
             work += stable.CONTACT_WORK(zone.first, zone.last, pressure, D + raised, alpha, beta, L)
         elif zone.kind == FREE:
-            work += raised * stable.PROFILE_RISE(zone.first, zone.last)
+            begun = zone.last - PERIOD  # of all that is not free; where that is narrow, a period less it has lost its digits
+            rise = stable.PROFILE_RISE(zone.first, zone.last)
+            work += raised * either(zone.first - begun, -stable.PROFILE_RISE(begun, zone.first), rise)
     return work
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import sys
 from pathlib import Path
@@ -56,6 +57,23 @@ def test_a_cancelling_form_is_found_out() -> None:
         return np.cos(s_1) - np.cos(s_0)
 
     assert measure(kernel("profile_rise"), SimpleNamespace(profile_rise=naive)).worst > 1e6
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        ("either(\n            2 *", "exchanged(\n            2 *"),
+        ("-profile_rise(d, c)", "profile_rise(c, d + 2 * np.pi)"),
+    ],
+    ids=["forms exchanged", "one form for any width"],
+)
+def test_a_form_where_the_other_is_due_is_found_out(before: str, after: str) -> None:
+    """Both are the same in exact arithmetic, and the grid had no point at which the digits tell them apart."""
+    text, inside = inspect.getsource(standard_linear_solid.means_acaf), dict(vars(standard_linear_solid))
+    inside["exchanged"] = lambda width, short, wide: inside["either"](width, wide, short)
+    assert text.count(before) == 1
+    exec(text.replace(before, after), inside)
+    assert measure(kernel("means_acaf"), SimpleNamespace(means_acaf=inside["means_acaf"]), points=40).worst > 100 * AIM
 
 
 def test_an_overflow_is_a_failure_that_names_function_and_point() -> None:

@@ -133,6 +133,9 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     # means, energy, stability
     m("mean", "averages.py", "as_derived(work, zones)),", "-as_derived(work, zones)),", "means_acaf"),
+    m("mean", "averages.py", "-sum(rises[zone]", "sum(rises[zone]", "means_acaf"),
+    m("mean", "averages.py", "-stable.PROFILE_RISE(begun", "stable.PROFILE_RISE(begun", "means_acaf"),
+    m("mean", "averages.py", "alpha), raised, plain)", "alpha), plain, raised)", "certificate of means_acaf", "certificates"),
     m("energy", "energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L", "power balance"),
     m("stability", "stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay", "shift of an event"),
     m("stability", "stability.py", "(release / (1 + beta) - released)", "(release / (1 + beta) + released)", "onset_slope_acaf"),

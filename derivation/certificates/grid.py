@@ -74,14 +74,22 @@ WORDS = {
 }
 
 
-def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = False, dashpots: bool | None = None) -> Point:
+def drawn(
+    args: Sequence[sp.Symbol],
+    seed: str,
+    modes: int = 0,
+    moving: bool = False,
+    dashpots: bool | None = None,
+    narrow: bool = False,
+) -> Point:
     """A point for a function with these arguments; ``modes``: of a foundation with a Prony series.
 
-    ``moving``: never at rest, V = 0. ``dashpots``: whether the least time is 0, always or never; drawn if None.
+    ``moving``: never at rest, V = 0. ``dashpots``: whether the least time is 0, always or never; drawn if None. ``narrow``: all
+    zones of a regime but one.
     """
     draw = Random(f"{seed} {' '.join(map(str, args))} {modes}")
     edges = [symbol for symbol in PHASES if symbol in args]
-    exact: dict[sp.Symbol, object] = dict(_phases(draw, edges))
+    exact: dict[sp.Symbol, object] = dict(_phases(draw, edges, narrow))
     follow = {}
     if GROUPS & set(args) and m not in args:
         inputs, follow = _one_time(draw, args)
@@ -106,14 +114,19 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or 1, follow)
 
 
-def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.mpf]:
+def _phases(draw: Random, edges: Sequence[sp.Symbol], narrow: bool) -> dict[sp.Symbol, mpmath.mpf]:
     """Phases in order, as floats; of a regime's edges, the last zone is wider than 1e-9 as the others."""
     near = draw.choice((-math.pi, math.pi / 2, 0.0)) + signed(draw, -9, -1)
     position = draw.choice((draw.uniform(-math.pi, math.pi), signed(draw, -9, 0), near))
-    room, found = PERIOD, {}
+    if narrow:  # half of them at a crest or valley, where little is left of the work of what is narrow
+        position = draw.choice((position, draw.choice((0.0, math.pi)) + signed(draw, -9, -3)))
+    room, found, wide = PERIOD, {}, draw.randrange(len(edges)) if narrow else None
     for number, edge in enumerate(edges):
         if number:
-            width = draw.choice((log(draw, -9, 0), draw.uniform(0.0, 1.5), draw.uniform(0.0, room), room - log(draw, -9, 0)))
+            if narrow:
+                width = room - log(draw, -7, -3) if number == wide else min(log(draw, -9, -3), room / 2)
+            else:
+                width = draw.choice((log(draw, -9, 0), draw.uniform(0.0, 1.5), draw.uniform(0.0, room), room - log(draw, -9, 0)))
             width = min(max(width, NARROW), room - NARROW * (len(edges) - number))  # which leaves as much for those that follow
             room -= width
             position = position + width

@@ -19,7 +19,7 @@ EPS = 2.0**-52
 DIGITS = 420  # the worst cancellation of a derived form on this grid costs about 150, the stand-in for zero 220
 FLOOR = mpmath.mpf(10) ** -40  # least scale: below it lie only remains of the stand-in, and decays that underflow
 POINTS = 200  # of the grid, for a function of one relaxation time
-POINTS_OF_REGIME = 80  # of a function of a whole regime, whose reference costs more
+POINTS_OF_REGIME = 80  # of a function of a whole regime, whose reference costs more; and as many with all zones but one narrow
 COUNTS = (1, 2, 3, 5, 8, 30)  # numbers of relaxation times at which a solver for any number is measured
 
 
@@ -70,8 +70,10 @@ def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int 
     with mpmath.workdps(DIGITS):
         reference = Reference(exact, parts)
         for count, index in grid(modes, points):
-            point = drawn(kernel.args, f"{name} {index}", count, kernel.moving)
-            found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
+            for narrow in (False, True) if of_regime else (False,):
+                seed = f"{name} {index}{' narrow' * narrow}"
+                point = drawn(kernel.args, seed, count, kernel.moving, narrow=narrow)
+                found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
     return found
 
 
