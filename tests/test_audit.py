@@ -12,19 +12,22 @@ import numpy as np
 import pytest
 from derived_once import audited, derivation, derivations, tampered
 
+import hystrip
 import hystrip.commands.measurements.two_levels as comparison
 import hystrip.derivation.pages.publish as publish
 from hystrip.commands.measurements import readings
 from hystrip.commands.measurements.measured import measured
 from hystrip.commands.measurements.pictures import ADHESION, CONTACT, missed, scenes, solved
-from hystrip.derivation import MODELS, AuditError, DerivationError, generated_folder
-from hystrip.derivation.displays import AGREED
-from hystrip.derivation.emit import input_hash
+from hystrip.derivation import MODELS, AuditError, DerivationError, generated_folder, symbols
+from hystrip.derivation.displays import AGREED, STATED
+from hystrip.derivation.emit import PARAMETERS, input_hash
 from hystrip.derivation.folder import read_measured
 from hystrip.derivation.pages import places
 from hystrip.derivation.pages.latex import pieces
 from hystrip.derivation.paper.record import PRINTED
+from hystrip.derivation.printing import source
 from hystrip.generated import standard_linear_solid
+from hystrip.orbit.foundation import foundation_of
 
 pytestmark = pytest.mark.xdist_group("derivation")
 
@@ -33,6 +36,7 @@ REPOSITORY = (generated_folder().parent / "pyproject.toml").is_file()  # not an 
 PROSE = generated_folder().parent / "tools/docs/audit.md"
 
 
+BRANCHES = np.array([3e9, 5e8]), np.array([1e-4, 2e-2])
 MODEL_NAMES = [model.name for model in MODELS]
 
 
@@ -307,3 +311,32 @@ def test_a_page_of_somebody_else_is_not_replaced(run, tmp_path, monkeypatch: pyt
     (tmp_path / "index.html").write_text("mine")
     status, out, err = run("audit", "--out", ".")
     assert (status, out) == (2, "") and err.startswith("hystrip: --out: got '.'; allowed: another folder: index.html in it")
+
+
+@pytest.mark.parametrize(
+    ("kind", "material", "own", "compared"),
+    [
+        ("one_time", hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), {"T_eps": 1e-2, "T_sigma": 1e-4, "J": 1e-2}, "alpha beta J L"),
+        ("several_times", hystrip.Prony(1e9, *BRANCHES), dict(zip(("K_i", "tau_i"), BRANCHES, strict=True)), "alpha eta S"),
+    ],
+)
+def test_a_parameter_of_a_strip_is_what_the_pages_say(kind: str, material, own: dict, compared: str) -> None:
+    """The words stand in the generated modules, too, and a wrong one was compared with nothing."""
+    si = {"l": 2e-6, "A": 3e-7, "D_j": 1e-7, "V": 7e-4, "p_0": 2e3, "delta_0": 3e-9}
+    known = {"k": 2 * np.pi / si["l"], "K": 1e9} | si | own
+    _, strips, _ = foundation_of(material).solve(*(np.array([value]) for value in si.values()), "constitutive", "unloading")
+    found = []
+    for name, meaning in PARAMETERS[kind]:
+        said = re.sub(r"(?<=\w) (?=\w)", "*", meaning.partition(",")[0])
+        if set(re.findall(r"[A-Za-z_]\w*", said)) <= known.keys():
+            given = getattr(strips if hasattr(strips, name) else strips.m, name)
+            assert np.ravel(given) == pytest.approx(np.ravel(eval(said, {}, known)), rel=1e-12), name
+            found.append(name)
+    assert found == [*compared.split(), "p_0", "delta_0", "D"]
+    assert kind != "one_time" or [name for name, _ in PARAMETERS[kind]] == [source(symbol) for symbol in symbols.PARAMETERS]
+
+
+def test_what_is_said_of_displays_is_said_of_steps_that_there_are() -> None:
+    for kind in ("one_time", "several_times"):
+        names = {step.name for made in derivations() if made.kind == kind for step in made.steps}
+        assert STATED[kind].keys() <= names
