@@ -239,8 +239,15 @@ MUTANTS = (
     Mutant(
         "bounds on snapped contacts begin without pressure",
         "orbit/orbit_bounds.py",
-        "part.centre - part.half_b, part.q_on",
-        "part.centre - part.half_b, 0.0 * part.q_on",
+        "kernel, part, begins, part.q_on",
+        "kernel, part, begins, 0.0 * part.q_on",
+        "test_proofs.py",
+    ),
+    Mutant(
+        "adhesion that is not let go of is taken to be wider at the crest than it is",
+        "orbit/orbit_bounds.py",
+        "-part.strips.D - part.strips.p_0",
+        "-1.02 * part.strips.D - part.strips.p_0",
         "test_proofs.py",
     ),
     Mutant(
