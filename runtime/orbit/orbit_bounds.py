@@ -53,7 +53,7 @@ _FAST = 60.0
 
 
 def orbit_bounds(kernel, cycle: Cycle, slowest: float = _FAST) -> Orbit:
-    """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest``."""
+    """Bounds for cycles of strips not in saturated contact; up to the beta ``slowest``, but where ``D <= -p_0``."""
     s, out = cycle.strips, Orbit.blank(cycle.size, engaged=True)
     hangs, arc = s.D <= -s.p_0, (cycle.half_b > 0) & (cycle.half_b < np.pi)
     index = np.flatnonzero(hangs | (arc & (s.beta <= np.maximum(slowest, TWO_PI * s.p_0))))

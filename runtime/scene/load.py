@@ -96,7 +96,7 @@ def _read(path: str) -> str:
         problem = f"cannot be read ({getattr(error, 'strerror', None) or error})"
         raise SceneError("", path, "a file that can be read", problem, path) from None
     if len(data) > LARGEST:
-        raise SceneError("", path, "a TOML file of at most 512 KiB", "too large for a scene", path)
+        raise SceneError("", path, f"a TOML file of at most {LARGEST >> 10} KiB", "too large for a scene", path)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

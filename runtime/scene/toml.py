@@ -9,7 +9,7 @@ from .errors import SceneError
 #: bytes of a scene at most; one has a few hundred
 LARGEST = 1 << 19
 #: values at most; Python's reader takes a second for some two hundred thousand
-_MOST = 25_000
+MOST = 25_000
 #: brackets within brackets, and parts of a dotted key, at most; scenes have two of each. Python's reader takes a time that
 #: grows with the square of either, and its stack ends at some hundred
 _DEEPEST = 16
@@ -27,10 +27,10 @@ _TEXTS = re.compile(
 def parse_toml(text: str) -> dict[str, Any]:
     """Content of a TOML text. Raises SceneError for what is none, or is larger or deeper than any scene."""
     if len(text) > LARGEST:
-        raise SceneError("", None, "a TOML text of at most 512 KiB", "too large for a scene")
+        raise SceneError("", None, f"a TOML text of at most {LARGEST >> 10} KiB", "too large for a scene")
     bare = _TEXTS.sub("0", text)
-    if bare.count(",") + bare.count("=") > _MOST:
-        raise SceneError("", None, f"at most {_MOST} values", "too long for a scene")
+    if bare.count(",") + bare.count("=") > MOST:
+        raise SceneError("", None, f"at most {MOST} values", "too long for a scene")
     if _depth(bare) > _DEEPEST:
         raise SceneError("", None, f"lists and tables at most {_DEEPEST} deep", "nested too deeply for a scene")
     if max(part.count(".") for part in re.split(r"[=,\n\[\]{}]", bare)) >= _DEEPEST:

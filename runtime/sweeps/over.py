@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import InputError
 from ..scene.errors import SceneError
 from ..scene.schema import Values, msgspec
-from ..scene.toml import parse_toml
+from ..scene.toml import MOST, parse_toml
 from ..scene.validate import values_in_si
 from .plan import has_unit, written_unit
 
@@ -42,5 +42,5 @@ def _read(key: str, written: str):
             continue
         except (msgspec.ValidationError, SystemError):  # the latter at integers of thousands of digits, up to msgspec 0.20
             break
-    allowed = 'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}'
-    raise InputError(key, written, allowed)
+    listed = f'a number, a text with its unit in quotes ("2 ms"), a list of at most {MOST} of these'
+    raise InputError(key, written, f"{listed}, or {{start = ..., stop = ..., num = ...}}")
