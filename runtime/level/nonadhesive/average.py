@@ -62,9 +62,8 @@ class Span:
         d = np.maximum(d, _LEAST)
         self.under, self.even = d < 1, d == 1
         self.off = np.where(self.even, 1.0, np.abs(d - 1))
-        start = np.minimum(np.divide(2 * self.off, s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
         self.high = np.arcsinh(np.sqrt(np.where(self.under, d, 1.0) / self.off))
-        low = np.where(self.under | self.even, 0.0, np.arcsinh(np.sqrt(start / self.off)))
+        low = np.arcsinh(np.sqrt(complete_up_to(d, s_sat) / self.off))
         # at saturation nothing but rounding is left of them
         self.low = np.minimum(low, self.high * (1 - 4 * EPS))
 
@@ -197,12 +196,11 @@ class _Sums:
     def _completely(self, some, strips, nodes):
         """What strips in complete contact carry: their pressure is one harmonic of the phase about the mean."""
         d, s_sat, law = self.d[some], self.s_sat[some], self.law[some]
-        swings = s_sat - 2
-        least = np.minimum(np.divide(2 * (d - 1), swings, out=np.ones_like(d), where=swings > 0), 1.0)
+        least = complete_up_to(d, s_sat)
         breaks = self.carry.breaks[law] / self.pressure
         # u at which the greatest or the least pressure of a strip is a break
         over = breaks - (d - 1)[:, None]
-        u = np.where(over > 0, 2 * over / s_sat[:, None], -2 * over / np.maximum(swings, EPS)[:, None])
+        u = np.where(over > 0, 2 * over / s_sat[:, None], -2 * over / np.maximum(s_sat - 2, EPS)[:, None])
         theta = 2 * np.arccos(np.sqrt(np.clip(np.column_stack((np.zeros_like(d), u, least)), 0.0, least[:, None])))
         theta = np.sort(theta, axis=1)
         panel, k = np.nonzero(np.diff(theta, axis=1) > 1e-9)
@@ -234,10 +232,14 @@ class _Sums:
         return total + np.bincount(column, weight * saturated, minlength=law.size)[:, None] * self.carry.full[law]
 
 
+def complete_up_to(d: np.ndarray, s_sat: np.ndarray) -> np.ndarray:
+    """The u, from the valley's 0 to the crest's 1, up to which strips at ``d`` > 0 are in complete contact."""
+    return np.clip(np.divide(2 * (d - 1), s_sat - 2, out=(2 * d >= s_sat).astype(float), where=s_sat > 2), 0.0, 1.0)
+
+
 def completely(d: np.ndarray, s_sat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Angle theta, from the valley, over which strips at ``d`` > 0 are in complete contact; and the pressure they add, K h."""
-    start = np.minimum(np.divide(2 * (d - 1), s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
-    rest = np.where((d > 1) | (d >= 0.5 * s_sat), np.pi - 2 * np.arccos(np.sqrt(np.clip(start, 0.0, 1.0))), 0.0)
+    rest = np.pi - 2 * np.arccos(np.sqrt(complete_up_to(d, s_sat)))
     return rest, (d - 1) * rest / np.pi + (rest - np.sin(rest)) / (4 * np.pi)
 
 
