@@ -63,7 +63,7 @@ def test_a_wrong_guess_costs_no_digits():
     found, (crest,) = _intervals(columns)
     hard = found.take(np.flatnonzero(found.low >= crest)[:1])
     hard.inner_low[:] = hard.inner_high[:] = True
-    (pieces,) = interpolate(columns.counting(), hard)
+    (pieces,) = interpolate(columns, hard)
     assert len(pieces) > 1
     t = np.array([0.13, 0.5, 0.87])
     D = np.concatenate([piece.penetration(t) for piece in pieces])

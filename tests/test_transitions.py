@@ -66,7 +66,7 @@ def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowe
     """Zones too narrow to be seen at every penetration, an island of strips that let go: the curve converges all the same (it
     once took minutes), and holds."""
     scene = _random(number)
-    columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material).counting()
+    columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
     rtol = np.full(1, 1e-3)
     _, low, high, _ = between_breaks(columns, np.zeros(1, int), inside * np.linspace(0.8, 1.2, 81)[None])
     here = (low < inside) & (inside < high)
@@ -83,7 +83,7 @@ def test_an_island_vanishes_where_its_strips_do():
     scene = _random(0)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
     seen = [np.array([v]) for v in (2.5728, 2.6259, 0, CODE["f"], 1.4170062189113333e-07, 1.4203712327079623e-07, 1e3)]
-    (D,) = locate_vanishing(columns.counting(), Islands(*seen))
+    (D,) = locate_vanishing(columns, Islands(*seen))
     across = np.linspace(2.5728, 2.6259, 5001)
     for side, there in ((-1e-6, True), (1e-6, False)):
         at = columns.at(np.zeros(across.size, int), np.full(across.size, D * (1 + side)))

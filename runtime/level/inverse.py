@@ -96,7 +96,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
     """``invert`` with adhesion: to where the curve passes the pressure first, for all that is known of it once it is refined."""
     h, q, unloading, bottom = columns.level.h, columns.scales.size, columns.branch == "unloading", first_contact(columns)
-    out, left, floor, columns = Penetrations.at(p * np.nan), np.arange(p.size), 1e-3 * columns.scales[0], columns.counting()
+    out, left, floor = Penetrations.at(p * np.nan), np.arange(p.size), 1e-3 * columns.scales[0]
     size, ways = np.abs(p) + floor, [growing(bottom, top, _NEXT * h, unloading) for top in cut_penetration(columns, p, full)]
     goal = np.maximum(_ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
     walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]

@@ -67,7 +67,6 @@ class LevelBatch:
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels.
     ``family``: of all strips, where there is no adhesion.
     ``crossings``: points located of the curves that divide the plane of strips, shared by all that is made of these columns.
-    ``spent`` (n,): strips evaluated of each column since ``counting``, by which the work on its curve is limited.
     """
 
     material: Material
@@ -83,16 +82,16 @@ class LevelBatch:
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
     family: Family | None = None
-    spent: np.ndarray | None = field(default=None, compare=False)
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
         group = None if self.group is None else self.group[index]
-        return replace(self, V=self.V[index], D=D, group=group, spent=None)
+        return replace(self, V=self.V[index], D=D, group=group)
 
-    def counting(self) -> LevelBatch:
-        """The same columns, of which the strips that are evaluated are counted from here on."""
-        return replace(self, spent=np.zeros(self.size, int))
+    @cached_property
+    def spent(self) -> np.ndarray:
+        """Strips evaluated so far to follow the curve of each of these columns, (n,), by which that work is limited."""
+        return np.zeros(self.size, int)
 
     def not_just_released(self, D: np.ndarray) -> np.ndarray:
         """``D`` (n,), but where rounding would decide strip by strip whether an adhesive valley is released: there it adheres."""
