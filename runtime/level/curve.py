@@ -96,9 +96,8 @@ def _without_hidden(columns: LevelBatch, intervals: Intervals) -> Intervals:
     """The intervals ending where gaps that adhere throughout open, if they end little above: with short memory all strips let go
     there at once and the pressure falls. Above that an interval of its own, unless loading surely met more pressure before."""
     K, h = columns.material.K, columns.level.h
-    opens = h - columns.stretch - columns.adhesion.delta_0
-    # nearer to a threshold rounding decides strip by strip
-    nearest = 64 * EPS * (h + columns.stretch + columns.adhesion.delta_0)
+    # nearer to a threshold than that rounding decides strip by strip
+    opens, nearest = h + columns.opens, 64 * EPS * (h - columns.opens)
     inside = (intervals.low < opens) & (opens < intervals.high) & (intervals.high - opens < _SHORT * h)
     lower, upper = intervals.take(inside).split(np.full(np.count_nonzero(inside), opens), soft=False)
     upper = upper.take(upper.width > np.maximum(nearest / _APART[0], upper.atol[:, 0] / K))

@@ -43,7 +43,7 @@ def straight(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     P, reach, none = columns.stretch, columns.adhesion.delta_0 if columns.stretch > 0 else 0.0, np.nan
     unloading = columns.branch == "unloading"
     R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
-    opens, closes = (-P - reach if unloading else none, -P) if P > 0 else (none, none)
+    opens, closes = (columns.opens if unloading else none, -P) if P > 0 else (none, none)
     c = [np.full(R.size, at) for at in (-P, none if unloading and P > 0 else -reach, opens, closes)]
     f = [1 - R, *(np.full(R.size, slope) for slope in (2.0, 0.0, 2.0))]
     if columns.carry is not None:

@@ -93,10 +93,14 @@ class LevelBatch:
         """Strips evaluated so far to follow the curve of each of these columns, (n,), by which that work is limited."""
         return np.zeros(self.size, int)
 
+    @property
+    def opens(self) -> float:
+        """``D - h`` at which a gap that adheres throughout, ``w = -p_0/K``, opens over the valley, m."""
+        return -self.stretch - self.adhesion.delta_0
+
     def not_just_released(self, D: np.ndarray) -> np.ndarray:
         """``D`` (n,), but where rounding would decide strip by strip whether an adhesive valley is released: there it adheres."""
-        reach = self.stretch + self.adhesion.delta_0
-        released, rounding = self.level.h - reach, ROUNDING * (self.level.h + reach)
+        released, rounding = self.level.h + self.opens, ROUNDING * (self.level.h - self.opens)
         return np.where((np.abs(D - released) < rounding) & (self.adhesion.p_0 > 0), released + rounding, D)
 
     @property
