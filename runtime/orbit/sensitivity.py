@@ -13,6 +13,7 @@ grazes, grows with g, is linear in F, and keeps its digits at large beta, where 
 
 import numpy as np
 
+from ..numerics.rounding import LARGEST
 from .groups import ROUNDING, TWO_PI, Cycle
 from .march import Orbit
 
@@ -102,12 +103,12 @@ def _log_gain(cycle: Cycle, forgets, M):
 
 def _excess(cycle: Cycle, F, gain):
     """``N - F`` at an onset of this F: inf where the end of adhesion grazes, 0 where the onset does, too, without a step."""
-    F, grazes = np.maximum(F, 0.0), gain > 700
+    F, grazes = np.maximum(F, 0.0), gain == np.inf
     fixed = np.where(grazes, 0.0, gain)
     return np.where(grazes & (F + cycle.onset_step > 0), np.inf, F * np.expm1(fixed) + cycle.onset_step * np.exp(fixed))
 
 
 def over(numerator, denominator):
-    """``numerator/denominator`` for ``numerator >= 0``: 0 if it is 0, inf where the denominator is not positive or too small."""
+    """``numerator/denominator`` for ``numerator >= 0``: 0 if it is 0, inf where it is too large, or over nothing positive."""
     out = np.where(numerator > 0, np.inf, 0.0)
-    return np.divide(numerator, denominator, out=out, where=(denominator > 1e-290 * numerator) & (numerator > 0))
+    return np.divide(numerator, denominator, out=out, where=(denominator > numerator / LARGEST) & (numerator > 0))
