@@ -34,13 +34,17 @@ from .sensitivity import slope_excess
 #: iterations at most. Where there is an orbit with a free part Newton mostly needs a third of them; next to complete contact,
 #: where two edges all but coincide, all. 10 and 24 for these do as well
 ITERATIONS = 14
-#: share of the way to the end of its arc that an edge may move at once
+#: share of the way to the end of its arc that an edge may move at once: with 0.7 Newton takes 6 % more steps, with 0.98 a fifth
+#: more of the orbits are missed
 _FARTHEST = 0.9
 #: largest correction that an orbit may still ask for
 CONVERGED = 1e-13
 #: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
 #: is no less than about this part of ``a**3/3``
 _ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
+#: length of a gap over half the arc in which the field pulls: 2 without memory, 3 if it is short. From 2.5 Newton finds all of
+#: 67,000 orbits without adhesion, from 2.4 all but one in 2,000, from 2.75 all but one in 250, from 2 all but one in 20
+_GAP = 2.5
 
 
 def start(kernel, cycle: Cycle, sequence: str, bounds: Orbit | None = None) -> np.ndarray:
@@ -96,7 +100,8 @@ def _contact(cycle: Cycle) -> np.ndarray:
     # on a foundation without instantaneous compliance contact lasts about beta^-1/2
     glassy = s.L / (s.J + np.maximum(s.beta, EPS) ** -1.5)
     longest = np.arccos(np.clip(s.delta_0 - 1, -1.0, 1.0))
-    a = np.minimum(np.cbrt(3 * np.pi * np.maximum(s.D + s.p_0, 0.0) / (_CUBE * glassy + np.pi)), np.minimum(_LONG, 0.9 * longest))
+    a = np.cbrt(3 * np.pi * np.maximum(s.D + s.p_0, 0.0) / (_CUBE * glassy + np.pi))
+    a = np.minimum(a, np.minimum(_LONG, _FARTHEST * longest))
     for _ in range(_ROUNDS):
         cosine, sine = np.cos(a), np.sin(a)
         c = _release(cycle, a)
@@ -104,7 +109,7 @@ def _contact(cycle: Cycle) -> np.ndarray:
         slope = sine * (np.pi + glassy * a - pull / np.maximum(np.sin(c), EPS))
         falls = slope > 0
         step = np.divide(value, slope, out=np.zeros_like(a), where=falls)
-        a = np.clip(np.where(falls, a + step, 0.5 * (a + longest)), 1e-3 * a, 0.98 * longest)
+        a = np.clip(np.where(falls, a + step, 0.5 * (a + longest)), (1 - _FARTHEST) * a, _FARTHEST * longest)
     return a
 
 
@@ -115,8 +120,7 @@ def _nearly_complete(kernel, cycle: Cycle, x, a) -> np.ndarray:
     near = pull < 1
     half = arc_versine(pull)
     end = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
-    # the gap is somewhat wider than where the field pulls
-    return np.array([np.where(near, end - TWO_PI + 2.5 * half, x), np.where(near, end, a)])
+    return np.array([np.where(near, end - TWO_PI + _GAP * half, x), np.where(near, end, a)])
 
 
 def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
