@@ -35,6 +35,7 @@ LABELS = {
     "closed_form": ("1", "solved by the closed form of saturated contact on all levels"),
     "error_estimate": ("1", "estimated absolute error of the friction coefficient"),
     "tau_error": ("Pa", "estimated absolute error of the friction stress"),
+    "pressure_error": ("Pa", "estimated absolute error of the nominal pressure: none where it was given"),
     "p_mean": ("Pa", "mean pressure"),
     "tau_mean": ("Pa", "mean friction stress"),
     "adhesion_fraction": ("1", "fraction of the area in the adhesion zone"),
@@ -45,7 +46,8 @@ LABELS = {
 #: version of the layout, counted up when a reader of older files could no longer understand it
 FORMAT = 1
 _BY_LEVEL = ("tau_by_level", "mu_by_level", "contact_by_level", "adhesion_by_level")
-_PLAIN = ("mu", "tau", "contact_fraction", "pulled_off", "p_sat", "converged", "closed_form", "error_estimate", "tau_error")
+_ERRORS = ("error_estimate", "tau_error", "pressure_error")
+_PLAIN = ("mu", "tau", "contact_fraction", "pulled_off", "p_sat", "converged", "closed_form", *_ERRORS)
 _MEANS = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 

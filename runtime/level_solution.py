@@ -188,7 +188,7 @@ def solve_level(
     allowed = rtol * np.abs(values) + columns.atol(np.full(load.size, rtol))
     converged = pulled_off | (errors <= allowed).all(axis=1)
     if strips is None:
-        warn_unconverged(converged, rtol, work, **{name: load, "V": V})
+        warn_unconverged(converged, rtol, lambda i: work.reason(V[i]), **{name: load, "V": V})
     one = lambda v: v.reshape(shape)  # noqa: E731
     return LevelSolution(
         one(D),

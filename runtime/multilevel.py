@@ -71,8 +71,8 @@ class Surface:
         return 1e-3 * max(next((size for size in sizes if size > EPS * max(sizes)), 0.0), 1 / LARGEST)
 
     def converged(self, points: Points) -> np.ndarray:
-        """Which points err by no more than ``rtol`` allows, (n,)."""
-        return points.error <= self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
+        """Which points err by no more than ``rtol`` allows, and have a mu that is known, or none, (n,)."""
+        return (points.error <= self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)) & ~points.of_unknown_mu
 
     def columns(self, i: int, V) -> LevelBatch:
         """Columns of level ``i``, at no penetration yet."""

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .errors import ConvergenceWarning
-
-if TYPE_CHECKING:
-    from .level.strips import WorkCounters
 
 
 @dataclass
@@ -45,6 +42,11 @@ class Points:
             pulled_off=none.copy(),
         )
 
+    @property
+    def of_unknown_mu(self) -> np.ndarray:
+        """Where the pressure, that of a penetration, may be zero for all that is known, (n,): mu may be anything there."""
+        return (self.p != 0) & (self.p_error >= np.abs(self.p))
+
     def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
         """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
         better = np.flatnonzero((finer.error < self.error[index]) | surely)
@@ -60,11 +62,11 @@ class Points:
         self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
 
 
-def warn_unconverged(converged: np.ndarray, rtol: float, work: WorkCounters, **of: np.ndarray) -> None:
-    """Warn, where the caller was called, of points that are not ``converged``; ``of`` (n,): their load, then their velocity."""
+def warn_unconverged(converged: np.ndarray, rtol: float, reason: Callable[[int], str], **of: np.ndarray) -> None:
+    """Warn, where the caller was called, of points that are not ``converged``; ``of`` (n,): their load and velocity. ``reason``:
+    why one did not."""
     lost = np.flatnonzero(~converged)
     if lost.size:
         first = ", ".join(f"{name} {values[lost[0]]:g}" for name, values in of.items())
-        reason = work.reason(list(of.values())[-1][lost[0]])
         missed = f"{lost.size} of {converged.size} points did not converge to rtol = {rtol:g}"
-        warnings.warn(f"{missed}; the first: {first}: {reason} (see error_estimate)", ConvergenceWarning, stacklevel=3)
+        warnings.warn(f"{missed}; the first: {first}: {reason(lost[0])} (see error_estimate)", ConvergenceWarning, stacklevel=3)

@@ -38,9 +38,9 @@ class Result:
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu: of tau over the pressure, and of that where a penetration was given (inf
         where it may be zero); NaN at zero pressure
-    tau_error : estimated absolute error of tau, Pa
-    converged : bool; the estimated error is within ``rtol``. Where it is not, the work came to its limit and the estimate says
-        what is known; with ``strips`` it says whether the equal strips happen to be as accurate
+    tau_error : estimated absolute error of tau, Pa; pressure_error : that of the pressure, Pa, 0 where it was given
+    converged : bool; the estimated error of tau is within ``rtol``, that of mu not inf. If not the work came to its limit and the
+        estimate says what is known; with ``strips`` it says whether the equal strips happen to be as accurate
     strips : equal strips that level 1 was averaged over, None for adaptive panels
     load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did;
         temperature : K, if one was given
@@ -60,6 +60,7 @@ class Result:
     closed_form: Bools
     error_estimate: Floats
     tau_error: Floats
+    pressure_error: Floats
     converged: Bools
     counts: dict[str, int]
     material: Material

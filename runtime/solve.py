@@ -78,8 +78,8 @@ def solve(
 
     Warns
     -----
-    ConvergenceWarning : points whose estimated error exceeds what ``rtol`` allows, as the work on each is bounded:
-        ``converged`` is false there, and the message names the first of them with the reason
+    ConvergenceWarning : points whose estimated error exceeds what ``rtol`` allows, as the work on each is bounded, or whose mu
+        may be anything: ``converged`` is false there, and the message names the first of them with the reason
 
     Examples
     --------
@@ -125,7 +125,9 @@ def solve(
         raise SolverError(f"{lost.size} of {L.size} points have no finite friction; the first: {first}")
     converged = surface.converged(points)
     if strips is None:
-        warn_unconverged(converged, rtol, work, **{name: L, "velocity": V})
+        no_pressure = "the pressure of that penetration may be zero, and mu anything"
+        reason = lambda i: no_pressure if points.of_unknown_mu[i] else work.reason(V[i])  # noqa: E731
+        warn_unconverged(converged, rtol, reason, **{name: L, "velocity": V})
     result = _result(points, surface, shape, V, name, converged)
     return result if temperature is None else replace(result, temperature=float(temperature))
 
@@ -138,7 +140,7 @@ def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:
     mu = np.divide(tau, points.p, out=np.full(tau.shape, np.nan), where=loaded)
     # a pressure that a penetration takes errs too: mu is not known where that may be zero
     error, least = points.error + np.abs(np.where(loaded, mu, 0.0)) * points.p_error, np.abs(points.p) - points.p_error
-    error = np.divide(error, least, out=np.where(loaded, np.inf, np.nan), where=loaded & (least > 0))
+    error = np.divide(error, least, out=np.where(loaded, np.inf, np.nan), where=loaded & ~points.of_unknown_mu)
     one = lambda v: v.reshape(shape)  # noqa: E731
     many = lambda v: v.reshape(len(surface.levels), *shape)  # noqa: E731
     return Result(
@@ -155,6 +157,7 @@ def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:
         closed_form=one(points.closed_form),
         error_estimate=one(error),
         tau_error=one(points.error),
+        pressure_error=one(points.p_error),
         converged=one(converged),
         counts={
             "strips_solved": surface.work.solved,

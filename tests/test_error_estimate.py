@@ -229,11 +229,17 @@ def test_friction_coefficients_at_penetrations_err_as_their_pressures_do(edge, b
     assert (np.abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate).all()
     assert (found.error_estimate > found.tau_error / np.abs(found.pressure)).all()
     assert (found.error_estimate < 0.1 * found.mu).all()
+    assert (np.abs(found.pressure - finer.pressure) <= found.pressure_error + finer.pressure_error).all()
+    assert (found.pressure_error > 0).all() and not hystrip.solve(*of, pressure=0.05, rtol=1e-3, **how).pressure_error.any()
 
 
 def test_a_friction_coefficient_is_not_known_where_the_pressure_of_a_penetration_may_be_zero():
     material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
     level, how = hystrip.Level(1e-5, 1e-6), {"velocity": 1e-2, "edge": "constitutive"}
     D = hystrip.solve(material, adhesion, level, pressure=1e-9, rtol=1e-10, **how).penetration
-    found = hystrip.solve(material, adhesion, level, penetration=D, rtol=1e-2, **how)
-    assert found.error_estimate == np.inf and found.converged and np.isfinite(found.tau_error)
+    with pytest.warns(hystrip.ConvergenceWarning, match=f"penetration {D:g}, velocity 0.01: the pressure .* may be zero"):
+        found = hystrip.solve(material, adhesion, level, penetration=[D, -1e-5], rtol=1e-2, **how)
+    assert found.error_estimate[0] == np.inf and np.isfinite(found.tau_error).all()
+    assert found.pressure_error[0] >= abs(found.pressure[0]) > 0
+    # where nothing touches the pressure is zero, friction as well, and there is no mu
+    assert found.converged.tolist() == [False, True] and found.pressure[1] == 0 and np.isnan(found.mu[1])

@@ -39,6 +39,7 @@ _STATE = (
     Variable("pulled off", "pulled_off", truth=True),
     Variable("error estimate of mu", "error_estimate"),
     Variable("error estimate of tau [Pa]", "tau_error"),
+    Variable("error estimate of pressure [Pa]", "pressure_error"),
     Variable("converged", "converged", truth=True),
     Variable("closed form", "closed_form", truth=True),
     Variable("p_sat [Pa]", "p_sat"),
