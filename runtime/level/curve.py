@@ -35,8 +35,7 @@ def trace(
     Below the penetration at which the crest lets go, and where it falls between breaks that are close, they hold only what
     unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
-    # whoever follows a curve counts from none
-    columns = replace(columns)
+    columns = replace(columns)  # what is spent on this curve alone is counted
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     if columns.branch == "loading" and columns.adhesion.p_0 > 0:
         intervals = _without_hidden(columns, intervals)

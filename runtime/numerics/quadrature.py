@@ -193,10 +193,8 @@ def sum_errors(values: np.ndarray, noise: np.ndarray, layered: np.ndarray) -> np
     # against three in the middle, of which one may be small by chance
     ratio = fall_ratio(_last(shape, many), shape[n // 2 - 3 : n // 2].max(axis=0))
     since = ratio ** (1 / (0.5 * (n + 1 - many)))
-    recent = np.maximum(
-        fall_ratio(_last(c, step), _last(c, step, step) + _QUIET * noise),
-        fall_ratio(_last(shape, step), _last(shape, step, step)),
-    )
+    recent = fall_ratio(_last(c, step), _last(c, step, step) + _QUIET * noise)
+    recent = np.maximum(recent, fall_ratio(_last(shape, step), _last(shape, step, step)))
     since = np.where(recent > since**step, np.maximum(since, _LAYERED), since)
     size = shared_size(_last(c, many), _last(shape, many), amplitude)
     first = size * np.interp(since, *_left(n, True))

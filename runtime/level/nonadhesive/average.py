@@ -63,9 +63,8 @@ class Span:
         self.under, self.even = d < 1, d == 1
         self.off = np.where(self.even, 1.0, np.abs(d - 1))
         self.high = np.arcsinh(np.sqrt(np.where(self.under, d, 1.0) / self.off))
-        low = np.arcsinh(np.sqrt(complete_up_to(d, s_sat) / self.off))
         # at saturation nothing but rounding is left of them
-        self.low = np.minimum(low, self.high * (1 - 4 * EPS))
+        self.low = np.minimum(np.arcsinh(np.sqrt(complete_up_to(d, s_sat) / self.off)), self.high * (1 - 4 * EPS))
 
     def strips(self, column: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """u and s of the strips at ``eta`` (k, n) of the columns (k,)."""

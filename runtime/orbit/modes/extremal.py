@@ -195,10 +195,8 @@ def agrees(met, edges, known):
 
 def in_order(edges):
     """Edges d, b, a, c in one period that ends with c in (0, pi): the gap can only grow while the profile falls."""
-    d, b, a, c = edges
-    shifted = [np.where(e > c, e - TWO_PI, e) for e in (d, b, a)]
-    turns = TWO_PI * np.floor(c / TWO_PI)
-    return np.array([*shifted, c]) - turns
+    c = edges[-1]
+    return np.where(edges > c, edges - TWO_PI, edges) - TWO_PI * np.floor(c / TWO_PI)
 
 
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
