@@ -125,18 +125,24 @@ def adhesive_rise(zones: Sequence[Span]) -> sp.Expr:
 
 def means_of_a_strip() -> Derived:
     r"""Eq. 11: The mean pressure is computed as the mean of w, equal to it on a closed orbit, because that sum holds
-    no large terms that cancel; the friction is the work of p on the profile, zone by zone. Adhesion counts in both.
+    no large terms that cancel; the friction is the work of p on the profile, zone by zone. Adhesion counts in both. Where
+    nothing is free pressures and displacements count from -p_0: the strip raised by p_0, without traction.
 
     .. math:: \bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds
     """
     z_j = sp.Symbol("z_j", real=True)
+    raised = {load: load + p_0, z_j: z_j + J_j * p_0}
+    lag = J_j * load - z_j  # beta_j z_j', and what contact begins with
     checks = [
         summed(
             "d/ds sum beta_j z_j = p - w, and that sum is periodic: mean p = mean w on a closed orbit",
-            J_j * load - z_j,
+            lag,
             [(load, (J_j, 1 - J_0)), (-1, (z_j, w - J_0 * load))],
             load - w,
             over={J_j, z_j},
-        )
+        ),
+        zero("with p_0 added to p and J_j p_0 to z_j the state moves as before", lag.subs(raised, simultaneous=True) - lag),
+        summed("and w is raised by p_0", J_j * p_0, [(p_0, (J_j, 1 - J_0))], p_0 - J_0 * p_0, over={J_j}),
+        zero("p_0 does no work over a period", sp.integrate(p_0 * sp.diff(sp.cos(s), s), (s, s_0, s_0 + PERIOD))),
     ]
     return derived(means_of_a_strip, load - w, checks, emitted=tuple(f"means_{sequence}" for sequence in PARTIAL))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from mode_solvers import Orbits
 
+import hystrip
 from hystrip.derivation.functions import flat
 from hystrip.generated import generalised, kelvin_voigt, modes, standard_linear_solid
 
@@ -81,6 +82,20 @@ def test_without_moduli_the_strip_is_elastic(sequence: str) -> None:
     snaps = p_0 >= delta_0
     detached = np.where(snaps, p_0 * delta_0 + p_0**2 / 2 - delta_0**2 / 2, p_0**2)
     assert np.allclose(2 * np.pi * tau_mean, 0.0 if sequence == "ac" else detached, rtol=1e-10, atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [2, 3, 8])
+def test_a_light_contact_under_strong_adhesion_is_that_without_raised_by_p_0(count: int) -> None:
+    """Its friction lost the digits by which p_0 is larger than the pressure that contact adds."""
+    moduli, times = np.full(count, 10.0 / count), np.logspace(-3, 2, count)
+    added, p_0 = 2.0 ** np.arange(-50, -9, 5), 4.0  # exact, and so is their difference
+    material, adhesion = hystrip.Prony(K=1.0, moduli=moduli, times=times), hystrip.Dugdale(p_0=p_0, delta_0=8.0)
+    strips = hystrip.solve_strip(material, adhesion, l=2 * np.pi, A=1.0, D=added - p_0, V=1.0, edge="constitutive")
+    assert set(strips.regime) == {"ac"} and 0.0 < strips.contact_fraction[0] < 1e-6
+    m = generalised.at_speed(generalised.material_modes(1.0, moduli, times)[1], np.ones(added.size))
+    p_mean, tau_mean = generalised.means_ac(-strips.b, strips.a, m, 0.0, 1.0, added)
+    assert np.allclose(strips.tau_mean, tau_mean, rtol=1e-12, atol=0.0)
+    assert np.allclose(strips.p_mean, p_mean - p_0, rtol=1e-15, atol=0.0)
 
 
 def _material(solver, draw) -> tuple[dict, mpmath.mpf, list]:

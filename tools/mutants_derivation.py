@@ -136,6 +136,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("mean", "averages.py", "-sum(rises[zone]", "sum(rises[zone]", "means_acaf"),
     m("mean", "averages.py", "-stable.PROFILE_RISE(begun", "stable.PROFILE_RISE(begun", "means_acaf"),
     m("mean", "averages.py", "alpha), raised, plain)", "alpha), plain, raised)", "certificate of means_acaf", "certificates"),
+    m("mean", "averages.py", "alpha), raised, plain)", "alpha), plain, plain)", "certificate of means_acaf", "certificates"),
     m("energy", "energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L", "power balance"),
     m("stability", "stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay", "shift of an event"),
     m("stability", "stability.py", "(release / (1 + beta) - released)", "(release / (1 + beta) + released)", "onset_slope_acaf"),

@@ -66,8 +66,10 @@ def measure_regimes(
         dashpots = False if regime.sequence == "afc" else None  # a snap into contact needs an instantaneous compliance
         with mpmath.workdps(DIGITS):
             for count, index in grid(modes, points):
-                point = drawn(args, f"{regime.sequence} {index}", count, dashpots=dashpots)
-                truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 1)
-                for kind, certificate in found.items():
-                    certificate.see(partial(point.called, solver, certificate.name, args), truth[kind], point.shown())
+                for narrow in (False, True):
+                    seed = f"{regime.sequence} {index}{' narrow' * narrow}"
+                    point = drawn(args, seed, count, dashpots=dashpots, narrow=narrow)
+                    truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 1)
+                    for kind, certificate in found.items():
+                        certificate.see(partial(point.called, solver, certificate.name, args), truth[kind], point.shown())
         yield from found.values()

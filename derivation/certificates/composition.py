@@ -16,12 +16,12 @@ import sympy as sp
 
 from ..check import DerivationError
 from ..modes.symbols import f_0, z, z_0
-from ..sequences import CONTACT, Row, Span
-from ..symbols import p, p_in, s, s_0, s_1
+from ..sequences import CONTACT, FREE, Row, Span
+from ..symbols import D, p, p_0, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
 from .reference import Reference
-from .scaled import STEP, Scaled, given, inverted, solved, values
+from .scaled import STEP, Scaled, given, inverted, scaled, sizes, solved, values
 
 AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the derivative put together
 State = tuple[sp.Symbol, np.ndarray]
@@ -54,7 +54,7 @@ class Composition:
             "residual": residual,
             "residual_and_jacobian": np.append(residual, jacobian),
             "return_map": return_map,
-            "means": self.means(passages),
+            "means": self.means(passages) if FREE in {zone.kind for zone in self.regime.zones} else self.raised_means(passages),
         }
 
     def _require_same(self, what: str, composed: np.ndarray, exact: np.ndarray) -> None:
@@ -136,6 +136,15 @@ class Composition:
             else:
                 height = height + load * given(self.point.value(zone.last - zone.first))
         return np.concatenate([height, work]) / given(2 * mpmath.pi)
+
+    def raised_means(self, passages: list[list[np.ndarray]]) -> np.ndarray:
+        """Where nothing is free, with the scale that they have counted from -p_0: no more is lost if p_0 is large."""
+        traction = self.point.values[p_0]
+        inputs = {p_0: mpmath.mpf(0), D: self.point.values[D] + traction}
+        raised = Composition(self.regime, self.blocks, self.point.moved(inputs, self.point.phases))
+        forgotten, forget, drive = raised.period()
+        p_mean, tau_mean = raised.means(raised.passages(solved(forget, drive), forgotten))
+        return scaled(values(self.means(passages)), sizes(np.array([p_mean - Scaled(traction, traction), tau_mean])))
 
     # -- derivatives --------------------------------------------------------------------------------------------------
 

@@ -14,7 +14,7 @@ import sympy as sp
 from ..modes.states import exact_modes
 from ..modes.symbols import STATES, m
 from ..printing import source
-from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, p, p_0, s, s_0, s_1
+from ..symbols import D, J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, p, p_0, s, s_0, s_1
 from .point import ZERO, Point, following, rounded
 
 PHASES = (d, b, a, c, s, s_0, s_1)
@@ -43,7 +43,7 @@ TRACTION = f"0, unless adhesion begins, or {WIDE}"
 DOMAIN: dict[str, Range] = {
     "D": (
         lambda r: r.choice((0.0, signed(r, *FAR), signed(r, -9, 6), 1.0 + signed(r, -9, 0), r.uniform(-2.0, 3.0))),
-        f"0, +-{WIDE}, and near 1",
+        f"0, +-{WIDE}, near 1 and near -p_0",
     ),
     "p_0": (lambda r: r.choice((0.0, log(r, *FAR), log(r, -9, 9), log(r, -2, 1))), TRACTION),
     "delta_0": (lambda r: r.choice((log(r, *FAR), log(r, -9, 6), log(r, -2, 1))), WIDE),
@@ -85,7 +85,7 @@ def drawn(
     """A point for a function with these arguments; ``modes``: of a foundation with a Prony series.
 
     ``moving``: never at rest, V = 0. ``dashpots``: whether the least time is 0, always or never; drawn if None. ``narrow``: all
-    zones of a regime but one.
+    zones of a regime but one, or the last and those that stand behind a wide one.
     """
     draw = Random(f"{seed} {' '.join(map(str, args))} {modes}")
     edges = [symbol for symbol in PHASES if symbol in args]
@@ -106,6 +106,9 @@ def drawn(
             exact[symbol] = mpmath.mpf(DOMAIN[name][0](draw))
     if d in exact and p_0 in exact and not exact[p_0]:  # without traction there are no zones of adhesion
         exact[p_0] = mpmath.mpf(log(draw, -2, 1))
+    if narrow and d not in exact and {b, D, p_0} <= exact.keys() and draw.random() < 0.5:  # strong adhesion, light contact
+        exact[p_0] = mpmath.mpf(log(draw, -2, 18))
+        exact[D] = mpmath.mpf(float(-exact[p_0] * (1 + signed(draw, -9, 0))))
     if p in exact and p_0 in exact:
         exact[p] = draw.choice((mpmath.mpf(0), -exact[p_0]))
     if T_sigma in exact:
@@ -120,11 +123,15 @@ def _phases(draw: Random, edges: Sequence[sp.Symbol], narrow: bool) -> dict[sp.S
     position = draw.choice((draw.uniform(-math.pi, math.pi), signed(draw, -9, 0), near))
     if narrow:  # half of them at a crest or valley, where little is left of the work of what is narrow
         position = draw.choice((position, draw.choice((0.0, math.pi)) + signed(draw, -9, -3)))
-    room, found, wide = PERIOD, {}, draw.randrange(len(edges)) if narrow else None
+    tight = narrow and draw.random() < 0.5
+    wide = draw.randrange(0 if tight else 1, len(edges)) if narrow else None
+    room, found = PERIOD, {}
     for number, edge in enumerate(edges):
         if number:
-            if narrow:
-                width = room - log(draw, -7, -3) if number == wide else min(log(draw, -9, -3), room / 2)
+            if number == wide:
+                width = room - log(draw, -9, -3)
+            elif tight:
+                width = min(log(draw, -9, -3), room / 2)
             else:
                 width = draw.choice((log(draw, -9, 0), draw.uniform(0.0, 1.5), draw.uniform(0.0, room), room - log(draw, -9, 0)))
             width = min(max(width, NARROW), room - NARROW * (len(edges) - number))  # which leaves as much for those that follow
