@@ -16,32 +16,6 @@ NAMES = {"F": lasts, "r": rises, r"\Deltaw": jump}
 """In the displays."""
 
 
-def always_engaged(flows: Flows) -> Derived:
-    r"""No orbit is engaged all along, but in complete contact, unless this holds: y = w + p_0 and q = p + p_0 are never negative
-    then, and z = y - J q fades no faster than in a gap. In the valley it is at most y, within reach of the profile there; its
-    mean is L times that of y, which is nowhere below the profile.
-
-    .. math:: L (D + p_0 - 1) \le (D + p_0 - 2 + \delta_0) \frac{\beta}{2\pi} \left(e^{2\pi/\beta} - 1\right)
-    """
-    strip, since = flows.strip, sp.Symbol("since", positive=True)
-    w, p = sp.Function("w")(s), sp.Function("p")(s)
-    y, q = w + p_0, p + p_0
-    z = y - J * q
-    moved = sp.solve(strip.law(w, p), sp.diff(w, s))[0]
-    mean = sp.integrate(sp.exp(since / beta), (since, 0, PERIOD)) / PERIOD
-    profile = strip.u + p_0
-    value = (L * (D + p_0 - 1), (D + p_0 - 2 + delta_0) * beta / PERIOD * (sp.exp(PERIOD / beta) - 1))
-    claims = [
-        zero("beta z' + z = L q", (beta * sp.diff(z, s) + z - L * q).subs(sp.diff(w, s), moved)),
-        zero("with mean p = mean w the mean of z is L times that of y", (z - L * y).subs(p, w)),
-        zero("the mean of the profile, and the most that y can be in the valley", [
-            L * sp.integrate(profile, (s, 0, PERIOD)) / PERIOD - value[0],
-            (profile.subs(s, sp.pi) + delta_0) * mean - value[1],
-        ]),
-    ]  # fmt: skip
-    return derived(always_engaged, value, claims)
-
-
 def pull_and_pressure(regimes: Sequence[Row], flows: Flows) -> Derived:
     r"""Nothing is left of beta z' = p - w over a period: the pressure over -p_0, summed over contact, is p_0 times the length of
     engagement and the sum of w. That pressure, where contact begins with none:

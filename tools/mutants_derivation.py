@@ -144,7 +144,6 @@ MUTANTS: tuple[Mutant, ...] = (
     m("stability", "onset_map.py", "(1 + M_step / M)\n", "(1 - M_step / M)\n", "slope of the onset map"),
     m("stability", "onset_map.py", "before[-1] - left_over", "before[-1] + left_over", "slope of the onset map"),
     m("stability", "onset_map.py", "ended = -M / at_a", "ended = M / at_a", "growth of the slope"),
-    m("stability", "balance.py", "(D + p_0 - 2 + delta_0) * beta", "(D + p_0 - 1 + delta_0) * beta", "always engaged"),
     m("stability", "balance.py", "- alpha * begun.subs(s, s_1)", "+ alpha * begun.subs(s, s_1)", "pull and pressure"),
     m("stability", "balance.py", "(sp.exp(-(s_1 - s_0) / beta) - 1)", "(sp.exp(-(s_1 - s_0) / beta) + 1)", "before contact"),
     m("stability", "balance.py", "cosine = sp.cos(d) - jump", "cosine = sp.cos(d) + jump", "before onset"),
@@ -242,9 +241,9 @@ MUTANTS: tuple[Mutant, ...] = (
     m(
         "display",
         "balance.py",
-        r"\frac{\beta}{2\pi} \left(e^{2\pi/\beta}",
-        r"\frac{\beta}{\pi} \left(e^{2\pi/\beta}",
-        "always engaged",
+        r"r - (D + p_0 - r) \left(",
+        r"r + (D + p_0 - r) \left(",
+        "before contact",
         "displays",
     ),
     m(
@@ -425,8 +424,8 @@ def displayed(package: ModuleType) -> None:
     whole_level, stacked = part(package, "level").level(full.threshold.value)
     printed = part(package, "level").printed_equation_16(whole_level[2].exact)
     kernels = (*part(package, "zones").rigid_profile(strip.u), *full.kernels, *whole_level)
-    engaged = part(package, "balance").always_engaged(flows)
-    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), stacked, printed, engaged]
+    closed = part(package, "balance").before_contact(flows)
+    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), stacked, printed, closed]
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     displays, words = part(package, "displays"), part(package, "vocabulary")
     displays.displays(steps, {}, words.vocabulary(flows, field), words.BINDINGS, displays.of_one_time)

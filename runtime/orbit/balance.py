@@ -1,13 +1,7 @@
-"""Proofs by the balance of a period that a strip has no orbit of some kind.
+"""Proofs by the balance of a period that a strip out of reach of the undeformed foundation, ``D <= -delta_0``, has no orbit with
+an onset. The formulas and what proves them: ``balance`` of the derivation.
 
-The formulas and what proves them: ``balance`` of the derivation.
-
-None that is always engaged but saturated contact, unless with ``S = D + p_0``
-
-    L (S - 1) <= (S - 2 + delta_0) beta (exp(2 pi/beta) - 1)/(2 pi)   and   S - 2 + delta_0 >= 0.
-
-None with an onset, of a strip out of reach of the undeformed foundation, ``D <= -delta_0``. In every orbit p and w have the same
-mean. With Q the sum of the pressure over -p_0 in contact and E the length of engagement
+In every orbit p and w have the same mean. With Q the sum of the pressure over -p_0 in contact and E the length of engagement
 
     0 = Q - p_0 E - sum of w,
 
@@ -32,18 +26,11 @@ import numpy as np
 
 from hystrip.generated.stable import versine
 
-from .groups import ROUNDING, TWO_PI, Cycle, Strips, arc_versine
+from .groups import ROUNDING, TWO_PI, Cycle, arc_versine
 
 #: parts into which the onsets are divided, and each part that is not excluded again: without the second and third division ten
 #: strips take an eighth longer, for searches of single ones, and mixed strips 4 %
 _PARTS = (8, 4, 4)
-
-
-def may_cling(kernel, s: Strips) -> np.ndarray:
-    """Which strips may have an orbit that is always engaged; the others are proven to have none but saturated contact."""
-    S, margin = s.D + s.p_0, s.D + s.p_0 - 2 + s.delta_0
-    bounded = s.L * (S - 1) * kernel.decay(TWO_PI, s.beta) <= (margin + s.noise()) * kernel.decay_mean(TWO_PI, s.beta)
-    return (2 - s.D - s.p_0 <= s.delta_0) & bounded
 
 
 def exclude_out_of_reach(kernel, cycle: Cycle) -> np.ndarray:

@@ -18,7 +18,7 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 import numpy as np
 
-from .balance import exclude_out_of_reach, may_cling
+from .balance import exclude_out_of_reach
 from .certificate import STABLE, attracting, edges_admissible, greatest_gap, saturates, stable
 from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
@@ -91,7 +91,7 @@ class _Batch:
         s = self.strips.among(index)
         full = saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
-        clings = ~full & may_cling(self.kernel, s)
+        clings = ~full & (2 - s.D - s.p_0 <= s.delta_0)
         hold = clings & (s.D <= -s.p_0)
         self.record.saturated_adhesion(index[hold])
         rest = ~full & ~hold
