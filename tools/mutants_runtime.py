@@ -281,6 +281,13 @@ MUTANTS = (
         "test_error_estimate.py",
     ),
     Mutant(
+        "a point whose mu may be anything has converged",
+        "multilevel.py",
+        "& ~points.of_unknown_mu",
+        "",
+        "test_error_estimate.py",
+    ),
+    Mutant(
         "contact ends earlier than in the orbit that is always engaged",
         "orbit/engine.py",
         "orbit.a + STABLE",
