@@ -304,3 +304,21 @@ def test_errors_of_a_law_hardly_cancel_where_all_pressures_are_alike():
     alone = hystrip.solve(material, NONE, levels[1:], pressure=p, velocity=V, rtol=1e-8)
     assert both.converged.all() and (both.tau_error <= 1e-3 * both.tau).all()
     assert (np.abs(both.tau - alone.tau) <= both.tau_error + alone.tau_error).all()
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_next_to_saturation_a_level_is_all_but_saturated(name):
+    """What is left of strips in partial contact, a part of the surface like the root of the distance to saturation, was known by
+    half the digits: friction was up to 5e-8 off."""
+    material, V = MATERIALS[name], 1e-3
+    how = {"velocity": V, "edge": closure(material), "rtol": 1e-10, "skip": False}
+    full = hystrip.solve(material, NONE, LEVEL, penetration=1.0, **{**how, "skip": True})
+    p_sat, before = full.p_sat[()], 1 - np.array([0.0, 2.3e-16, 1e-15, 1e-14, 1e-12, 1e-10])
+    D_sat = p_sat / K + LEVEL.mean_plane
+    by_depth = hystrip.solve(material, NONE, LEVEL, penetration=D_sat * before, **how)
+    by_load = hystrip.solve(material, NONE, LEVEL, pressure=p_sat * before, **how)
+    for found in (by_depth, by_load):
+        assert np.abs(found.tau - full.tau).max() <= 1e-12 * (full.tau + 1e-3 * K * HEIGHT**2 / LENGTH)
+        assert np.abs(found.contact_fraction - 1).max() <= 1e-3
+        assert (np.diff(found.contact_fraction) <= 4e-16).all()
+    assert np.abs(by_depth.pressure - (p_sat - K * D_sat * (1 - before))).max() <= 1e-12 * p_sat

@@ -318,9 +318,23 @@ MUTANTS = (
     Mutant(
         "errors of an average are a hundredth",
         "level/averages.py",
-        "error = width * sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + rounding",
-        "error = 0.01 * width * sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + rounding",
+        "error = width * (sum_errors(values,",
+        "error = 0.01 * width * (sum_errors(values,",
         "test_reference_levels.py",
+    ),
+    Mutant(
+        "layers where a contact vanishes are not feared",
+        "level/averages.py",
+        "_LAYER, _MEMORIES = 0.4, 4.5, 5.0",
+        "_LAYER, _MEMORIES = 0.4, 0.0, 5.0",
+        "test_error_estimate.py",
+    ),
+    Mutant(
+        "next to saturation the strips left are told by a difference of what is all but equal",
+        "level/nonadhesive/average.py",
+        "self.low = self.high - self.length",
+        "self.length = self.high - np.minimum(np.arcsinh(low), self.high * (1 - EPS)); self.low = self.high - self.length",
+        "test_nonadhesive.py",
     ),
     Mutant(
         "work that was cut short is not told",

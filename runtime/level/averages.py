@@ -17,6 +17,7 @@ import numpy as np
 from ..numerics.quadrature import Stage, interior_nodes, mapped, mapped_weights, sampled, sum_errors
 from ..numerics.rounding import EPS
 from ..orbit.batch import Ranges
+from ..orbit.foundation import foundation_of
 from ..orbit.regimes import CODE
 from .breaks import Zones, zones_along_y
 from .changes import Changes, locate_changes
@@ -36,6 +37,9 @@ _NEXT, _CLOSEST = 0.3, 1e-6
 _BELOW, _ROUGH = (0.003, 0.02, 0.1), 1e-2
 #: smallest error claimed for a panel, as a share of its tolerance: a layer may be too thin to show at its nodes
 _LEAST = 1e-6
+#: an outermost value less than this of the next one vanishes at that end; what panels miss of a layer there is up to 4.5 times
+#: ``x T (T/W)^2/2 pi``, less where a zone is less than five memories long (600 panels)
+_VANISHES, _LAYER, _MEMORIES = 0.4, 4.5, 5.0
 
 
 @dataclass
@@ -188,7 +192,7 @@ class _Work:
         width, state = panels.width[:, None], panels.state
         rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
         # fractions may be layers next to where a zone ends, across which pressure, K mean(w), and friction go on smoothly
-        error = width * sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + rounding
+        error = width * (sum_errors(values, 0.1 * self.atol[state], self.columns.fractions) + self._layers(stage)) + rounding
         goal = goal[state]
         done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
         if stage.n < _COSTLESS:
@@ -204,6 +208,19 @@ class _Work:
         np.add.at(self.values, state[done], sums[done])
         np.add.at(self.errors, state[done], (error + _LEAST * goal * (error > 0))[done])
         return done
+
+    def _layers(self, stage: Stage) -> np.ndarray:
+        """What sums of fractions miss of layers next to ends of panels where contact or adhesion vanishes, per width, (p, q).
+
+        A zone sets in like a square root of the distance, as on a glassy foundation while short against a memory T, later as on a
+        relaxed one. If it is W > T long (phases) at the outermost node, a share x of the panel away, the layer is x (T/W)^2 wide.
+        """
+        columns, times, values = self.columns, foundation_of(self.columns.material).times, stage.known[1][:, :, 2:4]
+        W = 2 * np.pi * np.where(values[:, [0, -1]] < _VANISHES * values[:, [1, -2]], values[:, [0, -1]], 0.0)
+        T = np.outer(columns.level.k * np.ravel(times), columns.V[stage.parts.state])[..., None, None]
+        T = np.where(T < W, T, 0.0)
+        missed = (T**3 / np.maximum(W, _MEMORIES * T + EPS) ** 2).sum(axis=(0, 2, 3))
+        return _LAYER / (2 * np.pi) * mapped(interior_nodes(stage.n)[0]) * missed[:, None] * columns.fractions
 
     def _evaluated(self, state, theta) -> list[np.ndarray]:
         """Codes, values, pressures over breaks and edges of strips (m,); with them all that ``_later`` numbered are solved."""

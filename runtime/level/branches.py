@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -176,8 +175,8 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
     if not pieces:
         return []
     pressures = _pressures(pieces)
-    rises = np.diff([piece.coefficients[:, 0] @ _chebyshev_at_turns(len(piece.coefficients)) for piece in pieces]) > 0
-    last = _TURNS.size - 1
+    every, last = np.arange(len(pieces)), _TURNS.size - 1
+    rises = np.diff(pressures(every.repeat(_TURNS.size), np.tile(_TURNS, every.size))[0].reshape(every.size, -1)) > 0
     outside = np.zeros((len(pieces), 1), int)
     change = np.diff(rises.astype(int), axis=1, prepend=outside, append=outside)
     (which, first), end = np.nonzero(change > 0), np.nonzero(change < 0)[1]
@@ -192,12 +191,6 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
         soft = piece.inner_low and low[k] == 0.0, piece.inner_high and high[k] == 1.0
         parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), *soft))
     return parts
-
-
-@lru_cache
-def _chebyshev_at_turns(size: int) -> np.ndarray:
-    """Chebyshev polynomials at ``_TURNS``, (size, turns)."""
-    return np.cos(np.arange(size)[:, None] * np.arccos(2 * _TURNS - 1))
 
 
 def _turns(pressures: Series, which: np.ndarray, near: np.ndarray, sign: float) -> np.ndarray:

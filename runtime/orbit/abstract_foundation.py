@@ -27,9 +27,9 @@ class Foundation(ABC):
     """A material with its generated solver: all that levels and strips ask of it. Arrays flat, (N,), SI unless said otherwise.
 
     ``parameters``: what the generated functions of a level take first, K among them. ``J``: instantaneous compliance times K.
-    ``longest_time``: longest retardation time, s. ``lossiest_rate``: rate of the greatest loss modulus, 1/s; inf where
-    that grows without bound. ``fastest``: the longest time over that of a passage, at the ``pace`` of a strip, up to which its
-    orbits are told from rounding; by default what the emitted functions are certified for (generated/certificates.json).
+    ``times``: of retardation and relaxation, s; ``longest_time``: the longest. ``lossiest_rate``: rate of the greatest loss
+    modulus, 1/s; inf where that grows without bound. ``fastest``: the longest time over that of a passage, at a strip's ``pace``,
+    up to which orbits are told from rounding; by default what emitted functions are certified for (generated/certificates.json).
     """
 
     fastest = 1e30
@@ -39,6 +39,7 @@ class Foundation(ABC):
     K: Any
     J: Any
     parameters: tuple
+    times: tuple
     longest_time: Any
 
     @property

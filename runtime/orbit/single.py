@@ -27,6 +27,7 @@ class SingleTime(Foundation):
     def __init__(self, kernel: ModuleType, material: StandardLinearSolid):
         self.kernel, self.material, self.K, self.J, self.L = kernel, material, material.K, material.J, material.L
         self.parameters, self.longest_time = (material.K, material.T_eps, material.T_sigma), material.T_eps
+        self.times = material.T_eps, material.T_sigma
 
     @property
     def lossiest_rate(self):

@@ -56,15 +56,19 @@ def family_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tup
 
 
 class Span:
-    """Strips in partial contact at ``d = D/h`` (m,), 0 < d < s_sat/2: eta between ``low`` and ``high``."""
+    """Strips in partial contact at ``d = D/h`` (m,), 0 < d < s_sat/2: eta between ``low`` and ``high``, ``length`` apart."""
 
     def __init__(self, d: np.ndarray, s_sat: np.ndarray):
         d = np.maximum(d, _LEAST)
         self.under, self.even = d < 1, d == 1
         self.off = np.where(self.even, 1.0, np.abs(d - 1))
-        self.high = np.arcsinh(np.sqrt(np.where(self.under, d, 1.0) / self.off))
-        # at saturation nothing but rounding is left of them
-        self.low = np.minimum(np.arcsinh(np.sqrt(complete_up_to(d, s_sat) / self.off)), self.high * (1 - 4 * EPS))
+        part = partly(d, s_sat)
+        high, low = (np.sqrt(v / self.off) for v in (np.where(self.under, d, 1.0), 1 - part))
+        # next to saturation both are the same but for rounding
+        apart = np.where(self.under, d, part) / self.off
+        self.length = np.arcsinh(np.maximum(apart / (high * np.hypot(1, low) + low * np.hypot(1, high)), _LEAST))
+        self.high = np.arcsinh(high)
+        self.low = self.high - self.length
 
     def strips(self, column: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """u and s of the strips at ``eta`` (k, n) of the columns (k,)."""
@@ -88,7 +92,7 @@ class Span:
     def nodes(self, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """n strips of every column as in ``at``, (m, n) each: towards complete contact the integrand ends like a root again."""
         t, w = gauss(n)
-        length, rest = (self.high - self.low)[:, None], 1 - mapped(t)
+        length, rest = self.length[:, None], 1 - mapped(t)
         root = np.sqrt(length * rest)
         return self.at(np.arange(self.high.size), root, 0.5 * length * w * mapped_slope(t) / root)
 
@@ -117,7 +121,7 @@ class Span:
         low, high = self.low[column[met]], self.high[column[met]]
         passed[met] = falling_root(lambda eta, index: -over(eta, met[index]), low, high, tolerance=_CLOSER)
         rest = np.maximum(self.high[:, None] - passed.reshape(breaks.shape), 0.0)
-        return np.sqrt(np.sort(np.column_stack((np.zeros_like(self.low), rest, self.high - self.low)), axis=1))
+        return np.sqrt(np.sort(np.column_stack((np.zeros_like(self.low), rest, self.length)), axis=1))
 
 
 class _Sums:
@@ -195,13 +199,12 @@ class _Sums:
     def _completely(self, some, strips, nodes):
         """What strips in complete contact carry: their pressure is one harmonic of the phase about the mean."""
         d, s_sat, law = self.d[some], self.s_sat[some], self.law[some]
-        least = complete_up_to(d, s_sat)
+        part = partly(d, s_sat)[:, None]
         breaks = self.carry.breaks[law] / self.pressure
         # u at which the greatest or the least pressure of a strip is a break
         over = breaks - (d - 1)[:, None]
         u = np.where(over > 0, 2 * over / s_sat[:, None], -2 * over / np.maximum(s_sat - 2, EPS)[:, None])
-        theta = 2 * np.arccos(np.sqrt(np.clip(np.column_stack((np.zeros_like(d), u, least)), 0.0, least[:, None])))
-        theta = np.sort(theta, axis=1)
+        theta = np.sort(2 * np.arcsin(np.sqrt(np.clip(np.column_stack((np.ones_like(d), 1 - u, part)), part, 1.0))), axis=1)
         panel, k = np.nonzero(np.diff(theta, axis=1) > 1e-9)
         low, high = theta[panel, k, None], theta[panel, k + 1, None]
         y, v, _ = graded_gauss(strips)
@@ -231,14 +234,14 @@ class _Sums:
         return total + np.bincount(column, weight * saturated, minlength=law.size)[:, None] * self.carry.full[law]
 
 
-def complete_up_to(d: np.ndarray, s_sat: np.ndarray) -> np.ndarray:
-    """The u, from the valley's 0 to the crest's 1, up to which strips at ``d`` > 0 are in complete contact."""
-    return np.clip(np.divide(2 * (d - 1), s_sat - 2, out=(2 * d >= s_sat).astype(float), where=s_sat > 2), 0.0, 1.0)
+def partly(d: np.ndarray, s_sat: np.ndarray) -> np.ndarray:
+    """The distance ``1 - u`` from the crest, up to 1 in the valley, within which strips at ``d`` > 0 are in partial contact."""
+    return np.clip(np.divide(s_sat - 2 * d, s_sat - 2, out=(2 * d < s_sat).astype(float), where=s_sat > 2), 0.0, 1.0)
 
 
 def completely(d: np.ndarray, s_sat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Angle theta, from the valley, over which strips at ``d`` > 0 are in complete contact; and the pressure they add, K h."""
-    rest = np.pi - 2 * np.arccos(np.sqrt(complete_up_to(d, s_sat)))
+    rest = np.pi - 2 * np.arcsin(np.sqrt(partly(d, s_sat)))
     return rest, (d - 1) * rest / np.pi + (rest - np.sin(rest)) / (4 * np.pi)
 
 

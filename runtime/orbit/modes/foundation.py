@@ -24,6 +24,7 @@ class ManyTimes(Foundation):
             found, K = _found if _varies(material) else _found_once, material.K
             modes = found(kernel, K, material.moduli, material.times)[1]
         self.K, self.modes, self.parameters, self.J, self.longest_time = K, modes, (K, modes), modes.J_0, modes.beta.max(axis=0)
+        self.times = *modes.beta, *modes.alpha
 
     @property
     def lossiest_rate(self):
