@@ -323,6 +323,13 @@ MUTANTS = (
         "test_reference_levels.py",
     ),
     Mutant(
+        "contact may begin behind the onset of a strip that snaps into it",
+        "orbit/modes/forced.py",
+        "np.where(closed | touching | (b < end), end, b)",
+        "np.where(closed | (b < end), end, b)",
+        "test_modes_far_apart.py",
+    ),
+    Mutant(
         "layers where a contact vanishes are not feared",
         "level/averages.py",
         "_LAYER, _MEMORIES = 0.4, 4.5, 5.0",

@@ -26,8 +26,8 @@ _SAME = 1e-12
 _SHARE = 0.2
 #: slots of the smallest cell: a function that takes smaller ones is not smooth enough for few nodes to see all of it
 _FINEST = SLOTS // 16
-#: parameters at which a merged segment is held against the law; how much more than is seen, there or at nodes, is feared: what is
-#: not known of pressures adds up to a third to nine laws of ten, and of 42 none erred by more than a fortieth of it
+#: parameters at which a merged segment is held against the law; how much more than is seen is feared: of 42 laws none erred by
+#: more than a fortieth of it
 _CHECKS, _SAFE = np.linspace(0, 1, 130)[1:-1], 1.5
 #: how far to either side of a joint its jump is looked at, of all parameters; steps along a segment over which its slope is told
 _BESIDE, _STEPS = 1e-6, 32

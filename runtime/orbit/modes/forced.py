@@ -55,7 +55,10 @@ class Forced:
                 break
             here = found.take(left)
             after, followed = here.turned(edges[[0, 3]][:, left], exactly)
-            good[left] = followed & (np.abs(after - here.edges).max(axis=0) <= AGREE)
+            change = after - here.edges
+            # a strip that snaps into contact does so at its onset: orbits err by as much as these are apart, not by its square
+            together = ~here.s.snaps | (np.abs(change[1] - change[0]) <= AGREE**2)
+            good[left] = followed & together & (np.abs(change).max(axis=0) <= AGREE)
             left, after = left[~good[left]], after[:, ~good[left]]
             found.edges[:, left] = after
             found.states[..., left] = cls(kernel, s.take(left), after).states
@@ -79,16 +82,14 @@ class Forced:
         dry, z, start, limit = replace(s, p_0=none, delta_0=none, snaps=none > 1), z_d + turn.dz, c_0, d_0 + TWO_PI
         held = np.flatnonzero(z.sum(axis=0) < kernel.profile(c_0, s.D))
         if held.size:
-            start = start.copy()
-            end, change, *_ = one_zone(
-                kernel, dry.take(held), np.full(held.size, CONTACT), c_0[held], limit[held], z[:, held], None
-            )
+            start, part, letter = start.copy(), dry.take(held), np.full(held.size, CONTACT)
+            end, change, *_ = one_zone(kernel, part, letter, c_0[held], limit[held], z[:, held], None)
             start[held], z[:, held] = end, z[:, held] + change
             a[held] = end
         end = self.closing(start, limit, z)
         good = ~turn.lost & (self.pressed(start, end, limit, z) >= 0)
         closed, end = end < limit, end - TWO_PI
-        b = np.where(closed | (b < end), end, b)
+        b = np.where(closed | touching | (b < end), end, b)
         return np.stack((end, b, np.where(closed & (a < end), c_0, np.maximum(a, b)), start)), good
 
     def pressed(self, start, end, limit, z):

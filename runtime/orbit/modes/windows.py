@@ -175,8 +175,7 @@ def links(orbit: Forced, target: Forced, rising: bool) -> np.ndarray:
             lowest = y_d - np.maximum(0.0, greatest * v)
             good &= (target.gaps()[1] + target.falling(d)[0] * v >= 0) | (y_d < s.m.J_0 * s.delta_0)
         forcing = force_c, np.clip(lowest, 0.0, s.step)
-        order = lambda x, y: (np.minimum(x, y), np.maximum(x, y))  # noqa: E731
-        r = responses(s, contact, (order(c, c_1), order(d, d_1)), forcing, False, moved)
+        r = responses(s, contact, np.sort(((c, c_1), (d, d_1)), axis=1), forcing, False, moved)
         left = room + np.stack((-rise, least * v)) + r[:, 0] * u + r[:, 1] * v
         return good & (room > 0).all(axis=0) & (left > 0).all(axis=0) & (c_1 > d_1) & (c_1 < d_1 + TWO_PI)
 
