@@ -89,7 +89,7 @@ class Forced:
         end = self.closing(start, limit, z)
         good = ~turn.lost & (self.pressed(start, end, limit, z) >= 0)
         closed, end = end < limit, end - TWO_PI
-        b = np.where(closed | touching | (b < end), end, b)
+        b = np.where(closed | (b < end), end, b)
         return np.stack((end, b, np.where(closed & (a < end), c_0, np.maximum(a, b)), start)), good
 
     def pressed(self, start, end, limit, z):
