@@ -43,8 +43,8 @@ LABELS = {
     "wavelength": ("m", "wavelength of the level"),
     "height": ("m", "height of the level"),
 }
-#: version of the layout, counted up when a reader of older files could no longer understand it
-FORMAT = 1
+#: version of the layout, counted up where what is read changes: files of no other one are read
+FORMAT = 2
 _BY_LEVEL = ("tau_by_level", "mu_by_level", "contact_by_level", "adhesion_by_level")
 _ERRORS = ("error_estimate", "tau_error", "pressure_error")
 _PLAIN = ("mu", "tau", "contact_fraction", "pulled_off", "p_sat", "converged", "closed_form", *_ERRORS)

@@ -82,13 +82,10 @@ def _opened(path: str | os.PathLike[str]) -> Dataset:
     version, written = data.attrs.get("hystrip_version"), data.attrs.get("hystrip_format")
     if version is None:
         raise InputError("path", shown, f"{_WHOLE}; this is netCDF of something else")
-    if written is None:
-        allowed = (
-            f"a file of format 1 to {FORMAT}; this one, of hystrip {version}, has none: solve it again, or open it with xarray"
-        )
+    if written is None or int(written) != FORMAT:
+        this = "this one has none" if written is None else f"this is format {written}"
+        allowed = f"a file of format {FORMAT}; {this}, of hystrip {version}: solve it again, or open it with xarray"
         raise InputError("path", shown, allowed)
-    if int(written) > FORMAT:
-        raise InputError("path", shown, f"a file of format {FORMAT} or older; this is format {written}, of hystrip {version}")
     return data
 
 

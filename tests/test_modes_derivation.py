@@ -170,13 +170,17 @@ def test_a_solver_for_any_number_is_measured_from_one_to_thirty() -> None:
     assert stored["generalised"]["modes"] == [1, 2, 3, 5, 8, 30] and stored["kelvin_voigt"]["modes"] == [1]
 
 
-class Still:
-    """A solver that takes the periodic state for fixed while the edges move, and one whose events stay where they are."""
+class Altered:
+    """The solver for any number of times, but for what a subclass has of its own."""
 
     Modes = modes.Modes
 
     def __getattr__(self, name: str):
         return getattr(generalised, name)
+
+
+class Still(Altered):
+    """A solver that takes the periodic state for fixed while the edges move, and one whose events stay where they are."""
 
     @staticmethod
     def residual_and_jacobian_ac(b, a, m, p_0, delta_0, D):
@@ -212,13 +216,8 @@ def test_a_cancelling_form_is_found_out() -> None:
     assert measure(kernel, Naive(), (2,), points=30).worst > 10 * AIM
 
 
-class FromZero:
+class FromZero(Altered):
     """A solver that counts pressures from 0 where nothing is free: what strong adhesion adds to all of them cancels."""
-
-    Modes = modes.Modes
-
-    def __getattr__(self, name: str):
-        return getattr(generalised, name)
 
     @staticmethod
     def means_ac(b, a, m, p_0, delta_0, D):

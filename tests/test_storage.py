@@ -101,6 +101,7 @@ def rewritten(path, change):
     [
         (lambda data: data.attrs.pop("hystrip_format"), "solve it again"),
         (lambda data: data.attrs.update(hystrip_format=99), "this is format 99"),
+        (lambda data: data.attrs.update(hystrip_format=1), "this is format 1, of hystrip .*: solve it again"),
         (lambda data: data.attrs.pop("hystrip_version"), "netCDF of something else"),
         (lambda data: data.attrs.update(hystrip_kind="dream"), "this holds 'dream'"),
     ],
