@@ -7,6 +7,10 @@ reduced by ``sin^2 = 1 - cos^2``. What is left is a polynomial in algebraically 
 identically if and only if it is the zero polynomial. No heuristic simplification takes part.
 """
 
+import functools
+import math
+import operator
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -57,25 +61,50 @@ def is_zero(expression: Any, phases: Sequence[sp.Symbol] = ()) -> bool:
 
 
 def vanishes(expression: sp.Expr) -> bool:
-    """Whether the numerator is the zero polynomial once no sine and no square root in it stands to a power above one."""
+    """Whether the numerator is the zero polynomial once no sine and no square root in it stands to a power above one, and
+    nothing that it is divided by is."""
     squares: dict[sp.Symbol, sp.Expr] = {}  # what is within a root before the root
 
     def named(kind: str, of: sp.Expr, square: sp.Expr) -> sp.Symbol:
         name = sp.Symbol(f"{kind}<{of}>")
-        squares[name] = sp.together(square)
+        squares[name] = square
         return name
 
     plain = expression.replace(sp.sin, lambda angle: named("sin", angle, 1 - sp.cos(angle) ** 2))
     halves = lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2  # noqa: E731
     plain = plain.replace(halves, lambda e: named("sqrt", e.base, e.base) ** (2 * e.exp))
-    numerator, _ = sp.fraction(sp.together(plain))
-    generators = set().union(*map(_generators, (numerator, *squares.values())))
+    generators = set().union(*map(_generators, (plain, *squares.values())))
     ring = sp.ring(sorted(generators, key=str) or "x", sp.QQ)[0]
-    polynomial = ring.from_expr(numerator)
-    for name in reversed([each for each in squares if each in generators]):
-        upper, lower = map(ring.from_expr, sp.fraction(squares[name]))
-        polynomial = _without_squares(ring, polynomial, ring.symbols.index(name), upper, lower)
-    return not polynomial
+    relations = [(ring.symbols.index(name), *_fraction(squares[name], ring)) for name in squares if name in generators]
+
+    def left(polynomial: Any) -> Any:
+        for index, upper, lower in reversed(relations):
+            polynomial = _without_squares(ring, polynomial, index, upper, _product(ring, lower))
+        return polynomial
+
+    numerator, divisors = _fraction(plain, ring)
+    return not left(numerator) and all(map(left, divisors))
+
+
+def _fraction(expression: sp.Expr, ring: Any) -> tuple[Any, Counter]:
+    """Numerator, and what it is divided by: polynomials with their powers."""
+    if expression.is_Add:
+        parts = [_fraction(part, ring) for part in expression.args]
+        common = functools.reduce(operator.or_, (below for _, below in parts))
+        return sum((above * _product(ring, common - below) for above, below in parts), ring.zero), common
+    if expression.is_Mul:
+        parts = [_fraction(part, ring) for part in expression.args]
+        return math.prod((above for above, _ in parts), start=ring.one), sum((below for _, below in parts), Counter())
+    if expression.is_Pow and expression.exp.is_Integer:
+        (above, below), power = _fraction(expression.base, ring), int(expression.exp)
+        if power < 0:
+            return _product(ring, below) ** -power, Counter({above: -power})
+        return above**power, Counter({each: n * power for each, n in below.items()})
+    return ring.from_expr(expression), Counter()
+
+
+def _product(ring: Any, powers: Counter) -> Any:
+    return math.prod((each**n for each, n in powers.items()), start=ring.one)
 
 
 def _generators(expression: sp.Expr) -> set[sp.Expr]:

@@ -148,30 +148,15 @@ def test_a_parabola_gives_the_known_pressure() -> None:
 
 # -- what is refused ----------------------------------------------------------------------------------------------------
 
+# few of many: tools/mutants_derivation.py has them all
 TAMPERED = {
     "admissibility": ("models.py", "T_sigma / K)", "-T_sigma / K)"),
     "strip profile": ("surface.py", "RIGID = D - 1 + sp.cos(s)", "RIGID = D - 1 - sp.cos(s)"),
     "contact flow": ("flows.py", "(entry - particular.subs(along, since))", "(entry + particular.subs(along, since))"),
     "closures": ("jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step"),
     "forcing": ("stable.py", "PROFILE(s, D) + beta * PROFILE_SLOPE(s)", "PROFILE(s, D) - beta * PROFILE_SLOPE(s)"),
-    "contact_work": ("stable.py", "rise**2 / 2", "-(rise**2) / 2"),
     "complex modulus": ("saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q"),
-    "level_saturation_pressure": ("level.py", "(2 * ratio - 1) - p_0", "(2 * ratio - 1) + p_0"),
-    "regime acaf": ("sequences.py", "zone(ADHESION, d, b, delta_0 - step", "zone(ADHESION, d, b, delta_0 + step"),
 }
-
-
-INEQUALITIES = {  # of every regime with edges; acaf is the first
-    "contact": ("regime.py", "harmonic + p_0 if self.kind", "harmonic - p_0 if self.kind"),
-    "gap": ("regime.py", "else self.load - harmonic", "else self.load + harmonic"),
-}
-
-
-@pytest.mark.parametrize("where", INEQUALITIES)
-def test_a_changed_sign_in_an_inequality_is_refused_by_name(where: str, tmp_path: Path) -> None:
-    wrong = tampered(tmp_path, *INEQUALITIES[where])
-    with pytest.raises(wrong.DerivationError, match="'regime acaf' failed: at an edge the slope"):
-        wrong.derive(wrong.STANDARD_LINEAR_SOLID)
 
 
 @pytest.mark.parametrize("name", TAMPERED)
@@ -188,7 +173,6 @@ LATE = {
     "strip problem": ("conditions.py", "gap_at(onset - 2 * sp.pi / k", "gap_at(onset + 2 * sp.pi / k"),
     "equilibrium": ("multilevel.py", "sum(loads) + p_0", "sum(loads) - p_0"),
     "shift of an event": ("stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay"),
-    "means_acaf": ("averages.py", "as_derived(work, zones)),", "-as_derived(work, zones)),"),
     "zone conditions": ("conditions.py", "gap = AMPLITUDE * displacement - (", "gap = AMPLITUDE * displacement + ("),
     "means over a level": ("multilevel.py", "(mean, number) - over_strips", "(mean, number) + over_strips"),
     "local stress": ("multilevel.py", "(D_level - HEIGHT).subs(x, fixed - V * t)", "(D_level - HEIGHT).subs(x, fixed + V * t)"),
@@ -206,10 +190,9 @@ LATE = {
 def _late(module, name: str):
     """The step of this name, by a module that derives it."""
     exact = {kernel.formula.name: kernel.exact for kernel in derivation().kernels}
-    one, strip, zones = exact["level_saturation_friction"], stage("Strip"), {k.formula.name: k for k in derivation().kernels}
+    one, strip = exact["level_saturation_friction"], stage("Strip")
     regimes = [regime for regime in derivation().regimes if regime.edges]
     return {
-        "means_acaf": lambda: module.strip_means(regimes[0], zones),
         "power balance": lambda: module.power_balance(stage("Flows")),
         "strip problem": lambda: module.strip_problem(strip, regimes[0]),
         "equilibrium": lambda: module.equilibrium(regimes[:1]),
@@ -263,6 +246,12 @@ def test_zero_is_proven_and_not_guessed() -> None:
     assert not is_zero(sp.Rational(1, 10**40) * sp.sin(s_0))
     assert not is_zero(sp.exp((s_0 - s_1) / alpha) - sp.exp((s_0 - s_1) / beta), (s_0, s_1))
     assert not is_zero(L * beta - beta - alpha)
+    # nothing over nothing is not nothing
+    nothing = alpha * (beta + 1) - alpha * beta - alpha
+    for nothing in (nothing, sp.sin(s_0) ** 2 + sp.cos(s_0) ** 2 - 1):
+        assert is_zero(nothing) and not is_zero(nothing / sp.Mul(nothing, beta, evaluate=False)) and not is_zero(alpha / nothing)
+    assert is_zero(1 / (1 / (1 + alpha) + 1 / beta) - beta * (1 + alpha) / (1 + alpha + beta))
+    assert not is_zero(1 / (1 / (1 + alpha) + 1 / beta) - beta * (1 - alpha) / (1 + alpha + beta))
 
 
 def test_a_failing_check_names_its_step() -> None:

@@ -175,7 +175,7 @@ def test_what_hides_an_orbit_is_never_proven(n, kind, rising):
     s, orbit = orbits(n, kind)
     rng, (d, _, _, c) = np.random.default_rng(60 + n), orbit.edges
     hidden = proven = linked = 0
-    for _ in range(16):
+    for _ in range(8 if kind else 16):
         # a share of the time that it is free, or engaged, from both its ends
         part = rng.random(s.size)
         total = 0.98 * 10 ** rng.uniform(-6, 0, s.size) * (d + 2 * np.pi - c if rising else c - d)

@@ -91,6 +91,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("adhesion", "strip.py", "(-p_0, gap <= delta_0)", "(-p_0, gap <= delta_0 / 2)", "adhesion law"),
     # surface
     m("surface", "surface.py", "D_level - h / 2 * (1 - sp.cos(k * y))", "D_level + h / 2 * (1 - sp.cos(k * y))", "strip profile"),
+    m("surface", "surface.py", "RIGID = D - 1 + sp.cos(s)", "RIGID = D - 1 - sp.cos(s)", "strip profile"),
     m("surface", "surface.py", "AMPLITUDE = h / 4", "AMPLITUDE = h / 2", "strip profile"),
     m("surface", "surface.py", "HEIGHT = h - h / 4", "HEIGHT = h + h / 4", "strip profile"),
     # boundary equations
@@ -113,6 +114,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("boundary equation", "conditions.py", "gap_at(onset - 2 * sp.pi / k", "gap_at(onset + 2 * sp.pi / k", "strip problem"),
     # inequalities
     m("inequality", "regime.py", "harmonic + p_0 if self.kind", "harmonic - p_0 if self.kind", "regime acaf"),
+    m("inequality", "regime.py", "else self.load - harmonic", "else self.load + harmonic", "regime acaf"),
     *(
         m("inequality", *change, "inequalities of admissibility", "inequalities")
         for change in (
@@ -184,6 +186,7 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("level", "multilevel.py", "sum(loads) + p_0", "sum(loads) - p_0", "equilibrium"),
     m("level", "multilevel.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
+    m("level", "multilevel.py", "(mean, number) - over_strips", "(mean, number) + over_strips", "means over a level", "complete"),
     m("level", "level.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
     # the paper as printed
     *(
@@ -283,6 +286,46 @@ MUTANTS: tuple[Mutant, ...] = (
     m("modes", "modes/stable.py", "-lost, -J * p * lost)", "-lost, J * p * lost)", "relaxation_map", "modes"),
     m("modes", "modes/chain.py", "m_1, m_2 = dc_1 - dR_1 * z", "m_1, m_2 = dc_1 + dR_1 * z", "chain rule", "modes"),
     m("modes", "modes/chain.py", "(r * dz + dq + dr * z)", "(r * dz + dq - dr * z)", "chain rule", "modes"),
+    m("modes", "modes/stable.py", "creep - S * f_0 * decay_loss(", "creep + S * f_0 * decay_loss(", "contact_increment", "modes"),
+    m(
+        "modes",
+        "modes/stable.py",
+        "PROFILE_SLOPE(s_1) - total(transient +",
+        "PROFILE_SLOPE(s_1) + total(transient +",
+        "contact_passage",
+        "modes",
+    ),
+    m(
+        "modes",
+        "modes/stable.py",
+        "-total(rates) - PROFILE_SLOPE(s_1)",
+        "-total(rates) + PROFILE_SLOPE(s_1)",
+        "relaxation_passage",
+        "modes",
+    ),
+    m("modes", "modes/stable.py", "-back(enter, lost)", "back(enter, lost)", "contact_passage", "modes"),
+    m("modes", "sequences.py", "d + PERIOD, delta_0 + step, delta_0)", "d + PERIOD, delta_0, delta_0)", "regime acaf", "modes"),
+    m("modes", "sequences.py", "p_0 - delta_0 / compliance", "p_0 + delta_0 / compliance", "regime afc", "modes"),
+    m("modes", "modes/saturated.py", "harmonic - eq_15", "harmonic + eq_15", "saturated_overstress", "modes"),
+    m("modes", "modes/flows.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction", "modes"),
+    m(
+        "modes",
+        "multilevel.py",
+        "+ friction_of_one.subs(lower)",
+        "- friction_of_one.subs(lower)",
+        "friction coefficient",
+        "modes",
+    ),
+    m(
+        "modes",
+        "conditions.py",
+        "gap = AMPLITUDE * displacement - (",
+        "gap = AMPLITUDE * displacement + (",
+        "zone conditions",
+        "modes",
+    ),
+    m("modes", "averages.py", "J_j * load - z_j", "J_j * load + z_j", "means of a strip", "modes"),
+    m("modes", "averages.py", "z_j + J_j * p_0}", "z_j - J_j * p_0}", "means of a strip", "modes"),
     m("display", "modes/flows.py", r"z_j(s) = J_j p + (", r"z_j(s) = J_j p - (", "relaxation flow", "modes"),
     m("display", "modes/zones.py", r"f = -N (z - J p),", r"f = N (z - J p),", "overstress", "modes"),
     m("display", "modes/zones.py", r"\eta_i \Delta e_i = \int", r"\Delta e_i = \int", "contact_increment", "modes"),
