@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from derived_once import audited, audited_with, derivations, emitted
 
 from hystrip.derivation import MODELS, check, generated_folder
-from hystrip.derivation.drift import audit_texts, compare
-from hystrip.derivation.emit import emit
+from hystrip.derivation.drift import compare
 from hystrip.derivation.folder import CERTIFICATES, MEASURED, write_files
 
 pytestmark = pytest.mark.xdist_group("derivation")
@@ -23,16 +18,6 @@ pytestmark = pytest.mark.xdist_group("derivation")
 NAMES = [model.name for model in MODELS]
 FILES = ("__init__.py", "stable.py", "modes.py", *(f"{name}.py" for name in NAMES))
 PAGES = ("audit/index.html", *(f"audit/{name}.{kind}" for name in NAMES for kind in ("html", "json")))
-EMIT = """
-import hashlib, json
-from hystrip.derivation import KELVIN_VOIGT, derive
-from hystrip.derivation.emit import emit
-from hystrip.derivation.drift import audit_texts
-derived = (derive(KELVIN_VOIGT),)
-files = emit(derived)
-files |= audit_texts(derived, files, {}, {})
-print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}))
-"""
 
 
 def drift(folder: Path):
@@ -114,21 +99,6 @@ def test_certificates_and_figures_that_are_none_are_drift(copy: Path, monkeypatc
     monkeypatch.setattr("hystrip.derivation.drift.audit_texts", lambda made, texts, *figures: audited_with(*figures))
     (copy / name).write_text(text, encoding="utf-8")
     assert name in {record.path for record in check(copy)}
-
-
-def test_text_does_not_depend_on_the_hash_seed() -> None:
-    """One process with a seed of its own, against this one.
-
-    Of the short derivation alone: this process has a seed of its own, too, and holds all models against what is checked in.
-    """
-    seed = "0" if os.environ.get("PYTHONHASHSEED") != "0" else "4242"
-    environment = {**os.environ, "PYTHONHASHSEED": seed}
-    other = subprocess.run([sys.executable, "-c", EMIT], env=environment, stdout=subprocess.PIPE, text=True, check=True).stdout
-    made = tuple(each for each in derivations() if each.model.name == "kelvin_voigt")
-    files = emit(made)
-    files |= audit_texts(made, files, {}, {})
-    assert json.loads(other) == {name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}
-    assert {"kelvin_voigt.py", "audit/kelvin_voigt.html"} <= files.keys()
 
 
 def test_writing_leaves_the_old_file_if_it_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,8 +10,8 @@ from hystrip.level.walk import Walk
 
 K, LEVEL = 1e9, hystrip.Level(l=1e-5, h=1e-6)
 SLS, KELVIN_VOIGT, PRONY = hystrip.StandardLinearSolid, hystrip.KelvinVoigt, hystrip.Prony
-#: material, p_0, delta_0, V, edge, branch, pressures on either side of a jump, accuracy, and friction there (0: pulled off), known
-#: to 1e-8 of itself: by a solution to 1e-8, and by the law that is had from the whole curve; of some points no friction was told
+#: material, p_0, delta_0, V, edge, branch, pressures on either side of a jump, accuracy, and friction there, known to 1e-8 of
+#: itself (0: pulled off), by a solution to 1e-8 and by the law that is had from the whole curve; of some no friction was told
 CASES = {
     "unloading to a part of the curve that comes back": (
         PRONY(K, [348680209.16754144, 1792146260.405797], [1e-3, 1e-1]), 589.0130472211182, 3.3980009401062786e-07,

@@ -82,12 +82,16 @@ def installed(wheel, tmp_path_factory):
     work = place / "work"
     work.mkdir()
 
-    def run(code, hide=()):
+    def run(code, hide=(), **environment):
         start = f"import sys; sys.path.insert(0, {str(site)!r})\n"
         start += f"sys.modules.update(dict.fromkeys({list(hide)!r}))\n"
         start += f"import hystrip; assert hystrip.__file__.startswith({str(site)!r}), hystrip.__file__\n"
         result = subprocess.run(
-            [sys.executable, "-c", start + code], cwd=work, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": ""}
+            [sys.executable, "-c", start + code],
+            cwd=work,
+            capture_output=True,
+            text=True,
+            env={**os.environ, "PYTHONPATH": "", **environment},
         )
         assert result.returncode == 0, result.stdout + result.stderr
         return result.stdout, work
@@ -190,16 +194,21 @@ except hystrip.MissingExtra as error:
     assert repr(hidden) in out and "pip install 'hystrip[regenerate]'" in out
 
 
-def test_wheel_derives_and_emits_the_same_bytes(installed):
+def test_wheel_derives_and_emits_the_same_bytes_under_any_hash_seed(installed):
     """One small model: the derivation finds its templates there; that its sources are the tree's is tested above, and what they
-    emit in test_drift."""
+    emit, under seeds of other processes, in test_drift."""
     code = """
-from hystrip.derivation import KELVIN_VOIGT, derive
+from hystrip.derivation import KELVIN_VOIGT, derive, generated_folder
+from hystrip.derivation.drift import audit_texts
 from hystrip.derivation.emit import emit
-for name, text in emit((derive(KELVIN_VOIGT),)).items():
-    if name != "__init__.py":  # it lists the models
-        open(name, "w", encoding="utf-8", newline="").write(text)
+from hystrip.derivation.folder import read_certificates, read_measured
+made, folder = (derive(KELVIN_VOIGT),), generated_folder()
+files = {path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.py")}
+files |= {name: text for name, text in emit(made).items() if name != "__init__.py"}  # it lists the models
+files |= audit_texts(made, files, read_certificates(folder), read_measured(folder))
+for name in ("kelvin_voigt.py", "stable.py", "audit/kelvin_voigt.html", "audit/kelvin_voigt.json"):
+    open(name.replace("audit/", ""), "w", encoding="utf-8", newline="").write(files[name])
 """
-    _, work = installed(code)
-    for name in ("kelvin_voigt.py", "stable.py"):
-        assert (work / name).read_bytes() == (ROOT / "generated" / name).read_bytes()
+    _, work = installed(code, PYTHONHASHSEED="0" if os.environ.get("PYTHONHASHSEED") != "0" else "4242")
+    for name in ("kelvin_voigt.py", "stable.py", "audit/kelvin_voigt.html", "audit/kelvin_voigt.json"):
+        assert (work / Path(name).name).read_bytes() == (ROOT / "generated" / name).read_bytes()
