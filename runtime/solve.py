@@ -11,7 +11,7 @@ import numpy as np
 from .arguments import check_branch, check_levels, check_rtol, check_single, check_strips, refuse_faint
 from .errors import InputError, SolverError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import broadcast, numbers
+from .inputs.checks import broadcast, numbers, truth
 from .inputs.materials import check_edge
 from .inputs.surface import Level
 
@@ -102,8 +102,7 @@ def solve(
         material = material.at_temperature(temperature)
     edge, branch = check_edge(material, edge), check_branch(branch)
     rtol = check_rtol(rtol)
-    if not isinstance(skip, (bool, np.bool_)):
-        raise InputError("skip", skip, "True or False")
+    skip = truth("skip", skip)
     if progress is not None and not callable(progress):
         raise InputError("progress", progress, "a function of the points done and their total")
     velocity = numbers("velocity", velocity, "m/s", 0)

@@ -1,12 +1,15 @@
 """Wrong inputs of the Python API: each refusal names the field, the value and what is allowed, before any work is done."""
 
+import inspect
 import pickle
+from dataclasses import is_dataclass
 
 import numpy as np
 import pytest
 import xarray
 
 import hystrip
+import hystrip.scene
 from hystrip.multilevel import Surface
 from hystrip.orbit import single
 
@@ -252,3 +255,43 @@ def test_adhesion_is_shown_as_the_call_that_makes_it():
     for law in (ADHESION, greatest, hystrip.Dugdale(p_0=15300.0, delta_0=3.3e-9), hystrip.Dugdale(gamma=0.05, p_0=5e5)):
         assert eval(repr(law), vars(hystrip)) == law
     assert repr(ADHESION) == "Dugdale(gamma=2.5e-05, delta_0=1e-08)"
+
+
+HEIGHTS = np.random.default_rng(0).normal(0, 1e-7, 16)
+SWITCHES = {  # every parameter of the public interface that is true or false
+    "load_scene.allow_solver": lambda given: hystrip.load_scene("paper_fig7", allow_solver=given),
+    "parse_scene.allow_solver": lambda given: hystrip.scene.parse_scene("velocity = 1", allow_solver=given),
+    "solve.skip": lambda given: surface(skip=given),
+    "sweep.restart": lambda given: hystrip.sweep("paper_fig7", restart=given),
+    "sweep.allow_solver": lambda given: hystrip.sweep("paper_fig7", allow_solver=given),
+    "master_curve.vertical": lambda given: hystrip.dma.master_curve([], vertical=given),
+    "read_dma.shear": lambda given: hystrip.dma.read_dma("none.csv", shear=given),
+    "read_isotherms.shear": lambda given: hystrip.dma.read_isotherms("none.csv", shear=given),
+    "Scan.periodic": lambda given: hystrip.roughness.Scan(HEIGHTS, 1e-5, periodic=given),
+}
+
+
+def test_every_switch_is_one_of_those_below():
+    modules = (hystrip, hystrip.dma, hystrip.roughness, hystrip.plots, hystrip.scene)
+    public = {getattr(module, name) for module in modules for name in module.__all__}
+    found = {
+        f"{each.__name__}.{name}"
+        for each in public
+        if inspect.isfunction(each) or is_dataclass(each)
+        for name, parameter in inspect.signature(each).parameters.items()
+        if isinstance(parameter.default, bool)
+    }
+    assert found == set(SWITCHES)
+
+
+@pytest.mark.parametrize("given", ["no", "", 0, 1, None, np.array([True])], ids=repr)
+@pytest.mark.parametrize("switch", SWITCHES)
+def test_switches_are_true_or_false(switch, given):
+    with pytest.raises(hystrip.InputError, match="allowed: True or False") as refused:
+        SWITCHES[switch](given)
+    assert refused.value.field.rpartition(".")[2] == switch.rpartition(".")[2]
+
+
+def test_switches_of_numpy_are_as_good():
+    scan = hystrip.roughness.Scan(HEIGHTS, 1e-5, periodic=np.True_)
+    assert scan.periodic is True

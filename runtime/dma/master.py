@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import choice, number
+from ..inputs.checks import choice, number, truth
 from ..inputs.shift import R_GAS, WLF, Arrhenius
 from .isotherms import repeats_differ
 from .modulus import DynamicModulus
@@ -103,6 +103,7 @@ def master_curve(
         (times that grow with temperature)
     """
     choice("law", law, LAWS)
+    vertical = truth("vertical", vertical)
     isotherms = _checked(isotherms)
     T = np.array([each.temperature for each in isotherms])
     wanted = _ROOM if T_ref is None else _reference(T_ref, T)

@@ -7,6 +7,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from ..errors import InputError
+from ..inputs.checks import truth
 from ..inputs.shift import WLF, Arrhenius, Shift
 from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
 from .modulus import DynamicModulus
@@ -73,6 +74,7 @@ def read_dma(
 
 def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shear: bool = False) -> Readings:
     """All rows of a file, as :func:`read_dma` reads it. Raises ``InputError`` as that does."""
+    shear = truth("shear", shear)
     table = read_table(path, lacking)
     where = table.where
     columns = columns_of(table.names)

@@ -83,6 +83,13 @@ def choice(field: str, value: Any, allowed: Sequence[str]) -> str:
     return allowed[allowed.index(value)]
 
 
+def truth(field: str, value: Any) -> bool:
+    """``value`` if it is True or False; a text such as "no" would count as true. Raises ``InputError``."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(field, value, "True or False")
+    return bool(value)
+
+
 def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
     """Common shape of the arrays; ``InputError`` names those that do not fit together."""
     try:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import number, numbers
+from ..inputs.checks import number, numbers, truth
 
 #: standard deviations of the others by which a value that several points share is off if it marks what was not measured
 _FAR = 20
@@ -43,6 +43,7 @@ class Scan:
             raise InputError("scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction")
         if sizes.shape != (heights.ndim,):
             raise InputError("scan.sizes", self.sizes, f"{heights.ndim} numbers, one for each direction of the heights")
+        periodic = truth("scan.periodic", self.periodic)
         filled = number("scan.filled", self.filled, "", 0)
         if filled > 1:
             raise InputError("scan.filled", self.filled, "a share from 0 to 1")
@@ -54,6 +55,7 @@ class Scan:
                 allowed += "; text may state that of its heights in a line above: # Value units: um"
             raise InputError("scan.heights", what, allowed)
         object.__setattr__(self, "heights", heights)
+        object.__setattr__(self, "periodic", periodic)
         object.__setattr__(self, "sizes", tuple(sizes.tolist()))
 
     def report(self) -> str:

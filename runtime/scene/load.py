@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..files import path_of, read_at_most
+from ..inputs.checks import truth
 from .errors import SceneError, located, nearest
 from .model import Scene
 from .toml import LARGEST, parse_toml
@@ -64,6 +65,7 @@ def parse_scene(text: str, name: str = "scene", source: str = "", *, allow_solve
     """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`."""
     from .validate import validated
 
+    allow_solver = truth("allow_solver", allow_solver)
     with located(source):
         values = validated(parse_toml(text))
         resolve_solver(values, source, allow_solver)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..errors import ConvergenceWarning, HystripError, InputError
 from ..files import path_of, refuse_unwritable
+from ..inputs.checks import truth
 from ..origins import outputs_from, refuse_other_origin
 from ..scene.load import quantities
 from ..tables import about_version, write_csv
@@ -161,9 +162,7 @@ def sweep(
         raise InputError("over", over, "a dict of dotted key of the scene -> values in SI")
     if scheduler is not None and not (isinstance(scheduler, str) and scheduler):
         raise InputError("scheduler", scheduler, "the address of a Dask scheduler, such as 'tcp://host:8786'")
-    for key, switch in (("restart", restart), ("allow_solver", allow_solver)):
-        if not isinstance(switch, (bool, np.bool_)):
-            raise InputError(key, switch, "True or False")
+    restart, allow_solver = truth("restart", restart), truth("allow_solver", allow_solver)
     if progress is not None and not callable(progress):
         raise InputError("progress", progress, "a function of the points done and their total")
     text, name = scene_text(scene)
