@@ -122,7 +122,10 @@ def test_scene_of_a_half_space_at_a_temperature():
 WRONG = [
     ('kind = "half-space"', 'kind = "halfspace"', 'material.kind: got .*"half-space"'),
     ('kind = "half-space"', 'kind = "half-space"\nmodel = "prony"', 'material.model: got .*none with kind = "half-space"'),
-    ('kind = "half-space"', "", "material.E: a key of another model; allowed: with model"),
+    ('kind = "half-space"', "", 'material.E: a key of another model; allowed: with model.*; E goes with kind = "half-space"'),
+    ('kind = "half-space"', 'model = "half_space"', 'material.model: got .half_space.; .*for a half-space kind = "half-space"'),
+    ('kind = "half-space"', 'kind = "prony"', "material.kind: got 'prony'; .*the name of a model stands under model"),
+    ('kind = "half-space"\nE = "2 MPa"\nnu = 0.49', "K = 1e9", r"material.moduli: .*moduli goes with .*or model = \"prony\""),
     ('E = "2 MPa"', "", "material.E: missing"),
     ('E = "2 MPa"', 'E = "2 MPa/m"', "material.E: .*unit of something else"),
     ('E = "2 MPa"', "E = -2", "material.E: got -2.0"),

@@ -90,14 +90,14 @@ class Material(Struct, forbid_unknown_fields=True, kw_only=True):
         Literal["foundation", "half-space"],
         Meta(
             description='"foundation" (the default: one stiffness per area for all levels, of a model) or "half-space" (E, nu, '
-            "moduli, times: every level gets the stiffness of its own wavelength)"
+            "moduli, times: every level gets the stiffness of its own wavelength); the name of a model stands under model"
         ),
     ] = "foundation"
     model: Annotated[
         Literal["standard_linear_solid", "kelvin_voigt", "prony"] | None,
         Meta(
             description='"standard_linear_solid" (the default: K, T_eps, T_sigma), "kelvin_voigt" (K, T_eps) or "prony" '
-            "(K, moduli, times)"
+            '(K, moduli, times); for a half-space kind = "half-space" in place of a model'
         ),
     ] = None
     E: Annotated[Values | None, _swept_meta("relaxed Young's modulus of a half-space, > 0", "Pa")] = None

@@ -71,17 +71,23 @@ def _refuse_other_models(material: Any) -> None:
     if material.kind == schema.HALF_SPACE and material.model is not None:
         raise SceneError("material.model", material.model, 'none with kind = "half-space", which has E, nu, moduli and times')
     model = _model(material)
-    named = f'kind = "{model}"' if model == schema.HALF_SPACE else f'model = "{model}"'
     wanted = schema.MATERIAL_KEYS[model]
-    for key in sorted({key for keys in schema.MATERIAL_KEYS.values() for key in keys}):
-        given = getattr(material, key)
-        if key in wanted and given is None:
+    given = {key: getattr(material, key) for key in sorted({key for keys in schema.MATERIAL_KEYS.values() for key in keys})}
+    for key, value in given.items():
+        if key not in wanted and value is not None:
+            having = " or ".join(_named(each) for each, keys in schema.MATERIAL_KEYS.items() if key in keys)
+            allowed = f"with {_named(model)} in [material]: {', '.join(wanted)}; {key} goes with {having}"
+            raise SceneError(f"material.{key}", value, allowed, "a key of another model")
+    for key in sorted(wanted):
+        if given[key] is None:
             raise SceneError(f"material.{key}", None, _described(f"material.{key}"), "missing")
-        if key not in wanted and given is not None:
-            allowed = f"with {named} in [material]: {', '.join(wanted)}"
-            raise SceneError(f"material.{key}", given, allowed, "a key of another model")
     if material.solver is not None and model not in ("prony", schema.HALF_SPACE):
         raise SceneError("material.solver", material.solver, 'with model = "prony" only; other models come with hystrip')
+
+
+def _named(model: str) -> str:
+    """How a scene says which model its material is."""
+    return f'{"kind" if model == schema.HALF_SPACE else "model"} = "{model}"'
 
 
 @functools.cache
