@@ -5,9 +5,9 @@ import pint
 import pytest
 
 import hystrip
-from hystrip.dma import DynamicModulus, fit_prony, read_dma
-from hystrip.dma.fit import ACCURACY
-from hystrip.dma.projection import solved
+from hystrip.dma import DynamicModulus, fit_prony, placement, read_dma
+from hystrip.dma.fit import ACCURACY, FitWarning
+from hystrip.dma.projection import by_log_times, solved
 from hystrip.scene import load_scene
 
 OMEGA = np.geomspace(1e-2, 1e4, 61)
@@ -49,13 +49,13 @@ def test_times_are_placed_where_they_were(terms):
     assert np.allclose(series.times, times, rtol=1e-7) and np.allclose(series.moduli, moduli, rtol=1e-7)
 
 
-@pytest.mark.parametrize("noise", [0.0, 0.02])
-def test_no_other_times_fit_better(noise):
+@pytest.mark.parametrize(("noise", "points"), [(0.0, 150), (0.02, 200), (0.02, 20_000)])
+def test_no_other_times_fit_better(noise, points):
     """Of all that was measured, not only of the few numbers in which times are looked for."""
-    omega = np.geomspace(1e-2, 1e4, 200)
+    omega = np.geomspace(1e-2, 1e4, points)
     z, rng = (1j * omega) ** 0.4, np.random.default_rng(5)
     exact = 1e6 * (1 + 100 * z) / (1 + z)
-    measured = exact + noise * (exact.real * rng.standard_normal(200) + 1j * exact.imag * rng.standard_normal(200))
+    measured = exact + noise * (exact.real * rng.standard_normal(points) + 1j * exact.imag * rng.standard_normal(points))
     data = DynamicModulus.from_complex(omega, measured)
     series = fit_prony(data, terms=6)
 
@@ -68,6 +68,33 @@ def test_no_other_times_fit_better(noise):
             moved = np.array(series.times)
             moved[i] *= 1 + by
             assert least < misfit(moved)
+
+
+def test_work_does_not_grow_with_what_was_measured(monkeypatch):
+    """20,000 frequencies took minutes: times are looked for with columns at as many as determine all others."""
+    rows = []
+
+    def counted(*arguments):
+        rows.append(len(by_log_times(*arguments)))
+        return by_log_times(*arguments)
+
+    monkeypatch.setattr(placement, "by_log_times", counted)
+    with pytest.warns(FitWarning):
+        series = fit_prony(known(7e5, MODULI, TIMES, np.geomspace(1e-2, 1e4, 20_000)), terms=2)
+    assert series.points == 20_000 and max(rows) < 400
+
+
+@pytest.mark.parametrize("decades", [0.3, 1, 4, 12, 24])
+def test_sums_over_many_frequencies_are_had_from_few(decades):
+    rng = np.random.default_rng(3)
+    omega = np.sort(np.append(10.0 ** rng.uniform(0, decades, 5000), [1.0, 10.0**decades]))
+    times = 10.0 ** rng.uniform(-decades - 1, 1, 20)
+    weights = rng.standard_normal((2 * omega.size, 3))
+    few, taken = placement._sampled(omega, weights)
+    assert few.size < 50 + 27 * decades
+    for columns in (placement.columns, lambda omega, times: by_log_times(omega, times, np.ones(times.size))):
+        exact, least = weights.T @ columns(omega, times), 1e-15 * np.abs(weights).sum()
+        assert np.abs(taken.T @ columns(few, times) - exact).max() < 10 * least
 
 
 def test_noise_moves_the_modulus_by_less_than_itself():
