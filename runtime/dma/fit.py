@@ -158,7 +158,7 @@ def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
     def left(count: int) -> float:
         if count not in found:
             times = _placed(placement, count)
-            found[count] = (_rms(solved(data, times)[1]), times)
+            found[count] = (placement.solved(times)[1], times)
         return found[count][0]
 
     def spread(count: int) -> float:
@@ -166,7 +166,7 @@ def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
         return left(count) / np.sqrt(max(1 - (2 * count + 1) / (2 * data.omega.size), 1e-3))
 
     counts = [count for count in _TRIED if count < most] + [most]
-    even = next((count for count in range(1, most + 1) if _rms(solved(data, _evenly(data, count))[1]) <= accuracy), None)
+    even = next((count for count in range(1, most + 1) if placement.solved(_evenly(data, count))[1] <= accuracy), None)
     enough = even or next((count for count in counts if left(count) <= accuracy), None)
     # noise, or more decades than so many times can span
     good, goal = (left, accuracy) if enough else (spread, _AS_GOOD * min(map(spread, counts)))
@@ -182,16 +182,17 @@ def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
 
 def _placed(placement: Placement, terms: int) -> np.ndarray:
     """Times at which ``terms`` branches fit best; their moduli follow from them."""
-    return min(map(placement.refined, _starts(placement.data, terms)), key=lambda found: found[1])[0]
+    return min(map(placement.refined, _starts(placement, terms)), key=lambda found: found[1])[0]
 
 
-def _starts(data: DynamicModulus, terms: int) -> list[np.ndarray]:
+def _starts(placement: Placement, terms: int) -> list[np.ndarray]:
     """Guesses of the times: even over the band, with its ends and without; and at even shares of a finely resolved spectrum."""
+    data = placement.data
     low, high = np.log(1 / data.omega[-1]), np.log(1 / data.omega[0])
     inner = np.exp(low + (high - low) * (np.arange(terms) + 0.5) / terms)
     starts = [inner] if terms == 1 else [inner, _evenly(data, terms)]
     fine = _evenly(data, max(_count(data, 4.0), terms))
-    moduli = solved(data, fine)[0][1:]
+    moduli = placement.solved(fine)[0][1:]
     if not moduli.any():
         return starts
     # shares of the logarithm of the modulus: soft and slow branches matter as much as stiff and fast ones

@@ -52,12 +52,19 @@ class Placement:
         directions, spread, _ = np.linalg.svd(rows / np.linalg.norm(rows, axis=0), full_matrices=False)
         directions = directions[:, spread > _ROUNDING * spread[0]]
         self._goal = directions.T @ goal
+        self._beyond, self._count = np.sum((goal - directions @ self._goal) ** 2), goal.size
         self._omega, taken = _sampled(data.omega, directions / sizes(data)[:, None])
         self._taken = _in_parts(taken)
 
     def _shares(self, of: np.ndarray) -> np.ndarray:
         """Columns (2 m, k) at the frequencies they are taken at in the space that columns span."""
         return (self._taken.swapaxes(1, 2) @ _in_parts(of)).sum(axis=0)
+
+    def solved(self, times: np.ndarray) -> tuple[np.ndarray, float]:
+        """Moduli (1 + times,), Pa, that fit best with branches of these times, s, and the root mean square of what they leave of
+        all that was measured."""
+        moduli, residuals = nonnegative(self._shares(columns(self._omega, times)), self._goal)
+        return moduli, float(np.sqrt((np.sum(residuals**2) + self._beyond) / self._count))
 
     def refined(self, start: np.ndarray) -> tuple[np.ndarray, float]:
         """Times that fit best, starting from ``start``, s, and half the sum of the squares of what they leave in the space."""
