@@ -1,6 +1,7 @@
 """Tables of moduli as instruments export them: each is read as the same four numbers, or refused by name."""
 
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -308,3 +309,23 @@ def test_what_no_rubber_has_is_remarked_on(tmp_path, names, cells, said):
     text = names + "\n" + rows(*((T, f, *E) for T, f, E in zip(cells, HZ, MPA, strict=True)))
     with pytest.warns(hystrip.dma.DataWarning, match=said):
         read_readings(written(tmp_path, text))
+
+
+STRAINS = "f [Hz];Strain [%];E' [MPa];E'' [MPa];T [°C];note\n" + "".join(
+    f"{f};{strain};{E};0.3;{T};\n" for T in (20, 40) for f in (1, 10, 100) for strain, E in ((0.1, 3), (1, 2.4), (10, 1.5))
+)
+
+
+@pytest.mark.parametrize("read", [read_dma, read_isotherms])
+def test_sweeps_of_strain_are_not_pooled_without_a_word(tmp_path, read):
+    text = STRAINS if read is read_isotherms else "\n".join(row for row in STRAINS.splitlines() if ";40;" not in row)
+    said = r"3 rows at 1 Hz and one temperature .* differ by up to 97 %; ignored columns that differ there: 'Strain \[%\]'\. "
+    with pytest.warns(hystrip.dma.DataWarning, match=said):
+        read(written(tmp_path, text))
+
+
+@pytest.mark.parametrize("moduli", ["3;0.3", "3.1;0.3", "3;0.45"])
+def test_repeats_that_scatter_are_not_remarked_on(tmp_path, moduli):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read_dma(written(tmp_path, f"f [Hz];E' [MPa];E'' [MPa]\n1;3;0.3\n1.00001;{moduli}\n1.01;5;0.3\n"))

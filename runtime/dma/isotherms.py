@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import InputError
 from .modulus import DynamicModulus
+from .plausibility import remark_on_repeats
 from .read import read_readings
 from .readings import Readings, degrees
 
@@ -51,6 +52,7 @@ def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None, she
     found = [readings.of(rows) for rows in groups]
     if len(found) < 2:
         raise InputError(readings.where, f"one temperature, {degrees(found[0].temperature)}", "at least two temperatures")
+    remark_on_repeats(readings, groups)
     return found
 
 

@@ -11,6 +11,7 @@ from ..inputs.checks import choice, number, truth
 from ..inputs.shift import R_GAS, WLF, Arrhenius
 from .isotherms import repeats_differ
 from .modulus import DynamicModulus
+from .plausibility import POOR_REPEAT
 from .readings import celsius, degrees
 from .superposition import Superposition, apart, superpose
 
@@ -21,8 +22,8 @@ _ROOM = 293.15
 _STEP = 1.0
 #: isotherms that are shifted within minutes
 _MOST = 1000
-#: decades of overlap below which neighbours are remarked on, and relative difference of what was measured twice
-_POOR_OVERLAP, _POOR_REPEAT = 0.5, 0.05
+#: decades of overlap below which neighbours are remarked on
+_POOR_OVERLAP = 0.5
 #: decades, and times what three of four are off and its standard error, by which a shift stands out from the law
 _OFF, _STANDS_OUT = 0.2, 5.0
 #: decades that a measured shift is uncertain by at least, with the temperature of its isotherm
@@ -154,7 +155,7 @@ def _remarks(isotherms: list[DynamicModulus], found: Superposition, off: np.ndar
         lower, upper = (celsius(each.temperature) for each in isotherms[i : i + 2])
         said.append(f"{lower} and {upper} share {shared:.1f} decades: the shift between them rests on little")
     for each in isotherms:
-        if (differ := repeats_differ(each)) > _POOR_REPEAT:
+        if (differ := repeats_differ(each)) > POOR_REPEAT:
             percent = f"{100 * differ:.2g} %"
             said.append(f"at {celsius(each.temperature)} moduli measured twice differ by up to {percent} (Set keeps them apart)")
     return tuple(said)

@@ -1,16 +1,20 @@
 """What about measured moduli and temperatures is hardly that of a rubber: said, not enforced."""
 
 import warnings
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..plausibility import COLDEST, HOTTEST
 from .columns import Column
+from .readings import Readings
 
 #: Pa: softer than any gel that keeps its shape, stiffer than diamond; mPa taken for MPa comes out there
 SOFTEST, STIFFEST = 10.0, 1e12
 #: tan delta: no solid loses more; per cent without their sign, and moduli of two units, come out there
 LOSSIEST = 10.0
+#: relative difference of moduli measured twice that is remarked on; frequencies so near, relative, are one
+POOR_REPEAT, _SAME = 0.05, 1e-4
 
 
 class DataWarning(UserWarning):
@@ -31,6 +35,29 @@ def remark_on_temperatures(where: str, column: Column, kelvin: np.ndarray) -> No
     """Warn of temperatures (K, one for each row) that no rubber is measured at."""
     usual = f"{COLDEST:g} to {HOTTEST:g} K ({COLDEST - 273.15:g} to {HOTTEST - 273.15:g} degC)"
     _remark(where, column, kelvin, COLDEST, HOTTEST, "K", usual, "another unit, or degrees and kelvin in one column?")
+
+
+def remark_on_repeats(readings: Readings, isotherms: Sequence[np.ndarray]) -> None:
+    """Warn of rows at one frequency of an isotherm, given by its rows' indices, whose moduli differ, with what else does."""
+    worst, pooled = POOR_REPEAT, None
+    for rows in isotherms:
+        rows = rows[np.argsort(readings.omega[rows], kind="stable")]
+        omega, size = readings.omega[rows], np.hypot(readings.storage[rows], readings.loss[rows])
+        starts = np.flatnonzero(np.append(True, omega[1:] > omega[:-1] * (1 + _SAME)))
+        differ = np.maximum.reduceat(size, starts) / np.minimum.reduceat(size, starts) - 1
+        if differ.max() > worst:
+            worst, pooled = differ.max(), np.split(rows, starts[1:])[int(np.argmax(differ))]
+    if pooled is None:
+        return
+    differing = [name for name, cells in readings.ignored.items() if len(set(cells[pooled])) > 1]
+    others = f"; ignored columns that differ there: {', '.join(map(repr, differing[:8]))}" if differing else ""
+    f = readings.omega[pooled[0]] / (2 * np.pi)
+    warnings.warn(
+        f"{readings.where}: {pooled.size} rows at {f:.4g} Hz and one temperature have moduli that differ by up to "
+        f"{100 * worst:.2g} %{others}. All count alike: keep those that belong together, such as of one strain",
+        DataWarning,
+        stacklevel=3,
+    )
 
 
 def _remark(

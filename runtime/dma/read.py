@@ -12,7 +12,7 @@ from ..inputs.shift import WLF, Arrhenius, Shift
 from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
 from .modulus import DynamicModulus
 from .pairs import PAIRS, in_range, moduli
-from .plausibility import remark_on, remark_on_loss, remark_on_temperatures
+from .plausibility import remark_on, remark_on_loss, remark_on_repeats, remark_on_temperatures
 from .readings import Readings, celsius
 from .table import Table, as_number, decimal_comma, read_table
 
@@ -52,7 +52,8 @@ def read_dma(
     InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
         allowed
 
-    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give.
+    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give; and of rows at one
+    frequency with different moduli, as in sweeps of strain.
     """
     readings = read_readings(path, decimal, shear)
     rows, sets = np.arange(readings.omega.size), readings.sets()
@@ -66,6 +67,7 @@ def read_dma(
         raise InputError(f"{readings.where}, Set", list(sets), one)
     readings.refuse_several_temperatures(rows)
     found = readings.of(rows)
+    remark_on_repeats(readings, [rows])
     if readings.temperature is None:
         return found
     at = f"temperature of the rows used: {celsius(readings.temperature[rows])}"
@@ -107,10 +109,13 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
     remark_on_loss(where, chosen[pair[1]], loss / storage)
     if temperature is not None:
         remark_on_temperatures(where, chosen["temperature"], temperature)
-    names = np.array([table.cell(row, chosen["set"].index) for _, row in kept], object) if "set" in chosen else None
+    cells = lambda at: np.array([table.cell(row, at) for _, row in kept], object)  # noqa: E731
+    names = cells(chosen["set"].index) if "set" in chosen else None
+    others = set(range(len(table.names))) - {column.index for column in chosen.values()}
+    ignored = {table.names[i]: cells(i) for i in sorted(others) if table.names[i]}
     kind, taken = _kind(where, [chosen[role] for role in pair], shear)
-    said = _said(table, chosen, taken, comma, len(rows) - len(kept))
-    return Readings(where, values[used[0].role], storage, loss, kind, temperature, names, said)
+    said = _said(table, chosen, taken, comma, len(rows) - len(kept), list(ignored))
+    return Readings(where, values[used[0].role], storage, loss, kind, temperature, names, said, ignored)
 
 
 def _kind(where: str, columns: list[Column], shear: bool) -> tuple[str, str]:
@@ -173,7 +178,7 @@ def _numbers(
     return np.array(out, dtype=float).reshape(-1, len(columns)), kept
 
 
-def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left_out: int) -> tuple[str, ...]:
+def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left_out: int, ignored: list[str]) -> tuple[str, ...]:
     words = {"omega": "angular frequency", "storage": "storage modulus", "loss": "loss modulus", "tan": "tan delta",
              "phase": "phase angle delta", "absolute": "absolute value of the modulus",
              "set": "set of one temperature"}  # fmt: skip
@@ -187,7 +192,6 @@ def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left
         lines.append(f"{column.name!r}: {word}{unit}")
     if taken:
         lines.append(taken)
-    ignored = [name for i, name in enumerate(table.names) if name and i not in {column.index for column in chosen.values()}]
     if ignored:
         lines.append(f"ignored: {', '.join(map(repr, ignored[:8]))}" + (", ..." if len(ignored) > 8 else ""))
     lines.append(f"cells parted by {table.separator}, decimal {'comma' if comma else 'point'}")

@@ -14,7 +14,8 @@ _ONE_STEP, _DRIFT = 1.0, 2.0
 @dataclass(frozen=True, eq=False)
 class Readings:
     """What a file holds, row by row (n,): angular frequency (rad/s), moduli (Pa), temperature (K) and the text in the
-    column ``Set``, None where there is no such column; and what each column was taken for."""
+    column ``Set``, None where there is no such column; what each column was taken for; and the text in the columns that are
+    ignored, by their names."""
 
     where: str
     omega: np.ndarray
@@ -24,6 +25,7 @@ class Readings:
     temperature: np.ndarray | None
     set: np.ndarray | None
     columns: tuple[str, ...]
+    ignored: dict[str, np.ndarray]
 
     def of(self, rows: np.ndarray) -> DynamicModulus:
         """The modulus of some rows, given by their indices, at their mean temperature. Raises ``InputError`` for rows at fewer
