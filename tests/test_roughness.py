@@ -1,11 +1,13 @@
 """Measured roughness: known levels come back from their surface."""
 
+import warnings
+
 import numpy as np
 import pytest
 from surfaces import eq4
 
 import hystrip
-from hystrip.roughness import Scan, levels_of
+from hystrip.roughness import Scan, ScanWarning, levels_of
 
 LEVELS = [(1e-5, 1e-6), (5e-7, 1e-7)]
 
@@ -174,3 +176,26 @@ def test_wrong_scans(heights, sizes, field):
 def test_the_share_that_was_filled_is_one(filled):
     with pytest.raises(hystrip.InputError, match="^scan.filled: got "):
         Scan(np.zeros(16), 1.0, filled=filled)
+
+
+@pytest.mark.parametrize("share", [0.003, 0.05, 0.4])
+@pytest.mark.parametrize(("mark", "offset"), [(0.0, 0.0), (0.0, 8e-7), (2e-7, 0.0)])
+def test_heights_missing_as_one_value_are_remarked_on(share, mark, offset):
+    heights, _ = isotropic(n=256, size=5e-5)
+    missing = np.random.default_rng(1).random(heights.shape) < share
+    with pytest.warns(ScanWarning, match=rf"scan.heights: .* % of the points are at exactly {mark:.6g} m"):
+        Scan(np.where(missing, mark, heights + offset), (1e-4, 1e-4))
+    if missing[60].sum() > 1:
+        with pytest.warns(ScanWarning, match="at exactly"):
+            Scan(np.where(missing[60], mark, heights[60] + offset), 1e-4)
+
+
+@pytest.mark.parametrize("digits", [1, 2, 15])
+def test_heights_that_are_there_are_not_remarked_on(digits):
+    """Measured with few digits, or with flat parts that begin without a step."""
+    heights, _ = isotropic(n=128)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Scan(np.round(heights / heights.std(), digits) * 1e-7, (1e-4, 1e-4))
+        Scan(np.maximum(heights, -1e-7), (1e-4, 1e-4))
+        Scan(eq4(LEVELS, 2e-5, 400), (2e-5, 2e-5))

@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..extras import require
 from ..files import path_of
 from ..inputs.checks import number, sequence
-from .scan import Scan
+from .scan import Scan, ScanWarning
 from .units import Units, lacks_lengths, units_of
 
 #: share of points that are filled without a warning: their roughness is missing from the levels
@@ -32,10 +32,6 @@ _OLD_SDF = re.compile(rb"([ab])BCR-1\.0")
 _OF_MATRIX = re.compile(rb"[-+\d.eE\s,;]*(?:nan[-+\d.eE\s,;]*)*", re.IGNORECASE)
 #: bytes of a file in which decimal commas are looked for
 _HEAD = 100_000
-
-
-class ScanWarning(UserWarning):
-    """A scan of which a good part had to be made up. Says how much."""
 
 
 def read_surface(

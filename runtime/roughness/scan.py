@@ -1,5 +1,6 @@
 """Heights on a grid, and how their variance is spread over wave numbers."""
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,13 @@ from ..inputs.checks import number, numbers, truth
 
 #: standard deviations of the others by which a value that several points share is off if it marks what was not measured
 _FAR = 20
+#: share of the points that have one height, and times as many as have any other, from which it may mark what was not measured: if
+#: steps to it are so many times those between others, or, where it is zero, if it is shared by more than that
+_SHARED, _OFTEN, _STEP, _ZEROS = 1e-3, 5, 3, 0.02
+
+
+class ScanWarning(UserWarning):
+    """A scan of which a good part was not measured, or may not have been. Says how much."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +36,8 @@ class Scan:
     ------
     InputError : a value outside its range, or shapes that do not fit; heights that differ by more than the scan is long;
         one height far off that several points share, which marks points that were not measured
+
+    Warns (:class:`ScanWarning`) of one height that many points share, though it is not far off, as where 0 marks such points.
     """
 
     heights: np.ndarray
@@ -48,6 +58,7 @@ class Scan:
         if filled > 1:
             raise InputError("scan.filled", self.filled, "a share from 0 to 1")
         _refuse_marks(heights)
+        _remark_on_marks(heights)
         if np.ptp(heights) > sizes.max():
             what = f"heights that differ by {np.ptp(heights):.4g} m on a scan of {sizes.max():.4g} m"
             allowed = f"heights that differ by less than that: check the units{_after(self.units)}"
@@ -104,6 +115,26 @@ def _refuse_marks(heights: np.ndarray) -> None:
         if others.size and shared > 1 and abs(end - others.mean()) > _FAR * others.std() > 0:
             what = f"{end:.6g} m at {shared} points, {abs(end - others.mean()) / others.std():.3g} standard deviations off"
             raise InputError("scan.heights", what, "heights that were measured; points that were not are nan in a file")
+
+
+def _remark_on_marks(heights: np.ndarray) -> None:
+    """Warn of one height that points share as no others do, with steps to it as nowhere else; or of many that are zero."""
+    values, counts = np.unique(heights, return_counts=True)
+    if values.size < 3:
+        return
+    second, most = np.partition(counts, -2)[-2:]
+    value, share = values[np.argmax(counts)], most / heights.size
+    if share < _SHARED or most < _OFTEN * second:
+        return
+    at = heights == value
+    steps = np.concatenate([np.abs(np.diff(heights, axis=axis)).ravel() for axis in range(heights.ndim)])
+    border = np.concatenate([np.diff(at, axis=axis).ravel() for axis in range(heights.ndim)])
+    others = steps[~border & (steps > 0)]
+    steep = not others.size or np.median(steps[border]) > _STEP * np.median(others)
+    if steep or (value == 0 and share > _ZEROS):
+        said = f"{100 * share:.2g} % of the points are at exactly {value:.6g} m, and at no other height a fifth as many"
+        allowed = "if it marks what was not measured, levels come out wrong; such points are nan in a file"
+        warnings.warn(f"scan.heights: {said}: {allowed}", ScanWarning, stacklevel=4)
 
 
 def _tapered(heights: np.ndarray) -> np.ndarray:
