@@ -4,7 +4,7 @@ A display is a chain of equations, or values that stand for themselves. With the
 a chain are one, and a value by itself, or on a side of an inequality ``<=``, is that of the step. Both are compared at random
 points (:mod:`.modes.numbers`), where an index means what it says. What the names mean: :mod:`.vocabulary` and
 :mod:`.modes.vocabulary`. Displays that state a condition, a definition or an integral over fields that are not in closed form
-have nothing to compare; ``displays.toml`` lists them.
+have nothing to compare; ``displays.toml`` lists them, each with a reason of ``REASONS``.
 """
 
 import random
@@ -29,6 +29,18 @@ from .symbols import alpha, beta, chi
 
 READ = "the display reads as what was proven"
 POINTS, AGREED = 3, 20  # digits
+#: how the reasons begin for which a display holds nothing to compare, and what it shows then, one of these at least
+REASONS = {
+    "printed from": ("=",),
+    "condition": ("=", "<", r"\ge"),
+    "a condition": ("=",),
+    "a law by cases": (r"\quad",),
+    "a convention": ("= 0",),
+    "definitions of the means": (r"\oint",),
+    "an integral over": (r"\int",),
+    "a sum over": (r"\sum",),
+    "derivatives of": (r"\partial",),
+}
 STATED: dict[str, dict[str, str]] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 Names = Mapping[str, Any]
 Binding = Callable[[list[sp.Expr], Names], Names]
@@ -46,12 +58,23 @@ def displays(
     found = {}
     for step in steps:
         what = stated.get(step.name, "")
+        if what:
+            require_reason(step, what)
         if what.startswith("printed") and not all(sp.latex(part) in step.latex for part in values_of(step)):
             raise DerivationError(step.name, READ)
         if not what:
             read_back(step, {**words, **bound(step, words, bindings)}, point)
         found[step.name] = f"nothing to compare in the display: {what}" if what else f"{READ}: {AGREED} digits"
     return found
+
+
+def require_reason(step: Derived, what: str) -> None:
+    """Require that a display holds nothing to compare for the reason stated. Raises :class:`DerivationError`."""
+    shown = next((signs for begins, signs in REASONS.items() if what.startswith(begins)), None)
+    if shown is None:
+        raise DerivationError(step.name, f"{what!r} in displays.toml begins with one of {', '.join(map(repr, REASONS))}")
+    if not any(sign in step.latex for sign in shown):
+        raise DerivationError(step.name, f"a display that is {what!r} shows one of {', '.join(map(repr, shown))}")
 
 
 def bound(step: Derived, words: Names, bindings: Mapping[str, Binding]) -> Names:

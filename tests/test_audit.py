@@ -10,15 +10,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import sympy as sp
 from derived_once import audited, derivation, derivations, tampered
 
 import hystrip
 import hystrip.commands.measurements.two_levels as comparison
+import hystrip.derivation.displays as displays
 import hystrip.derivation.pages.publish as publish
 from hystrip.commands.measurements import readings
 from hystrip.commands.measurements.measured import measured
 from hystrip.commands.measurements.pictures import ADHESION, CONTACT, missed, scenes, solved
 from hystrip.derivation import MODELS, AuditError, DerivationError, generated_folder, symbols
+from hystrip.derivation.check import Derived
 from hystrip.derivation.displays import AGREED, STATED
 from hystrip.derivation.emit import PARAMETERS, input_hash
 from hystrip.derivation.folder import read_measured
@@ -340,3 +343,17 @@ def test_what_is_said_of_displays_is_said_of_steps_that_there_are() -> None:
     for kind in ("one_time", "several_times"):
         names = {step.name for made in derivations() if made.kind == kind for step in made.steps}
         assert STATED[kind].keys() <= names
+
+
+@pytest.mark.parametrize(
+    ("reason", "latex", "said"),
+    [
+        ("it is long", "w = u", "'it is long' in displays.toml begins with one of 'printed from', 'condition', "),
+        ("an integral over an unspecified motion", "w = u", r"a display that is 'an integral .* shows one of '.*int'"),
+        ("conditions", r"\text{all is well}", "a display that is 'conditions' shows one of '=', '<', "),
+    ],
+)
+def test_a_display_is_left_out_for_a_reason_that_can_be_seen(reason, latex, said) -> None:
+    step = Derived(sp.Symbol("w"), "a step", "w", latex, "", "", (), "")
+    with pytest.raises(DerivationError, match=f"'a step' failed: {said}"):
+        displays.displays([step], {"a step": reason}, {}, {}, displays.of_one_time)
