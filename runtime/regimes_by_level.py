@@ -11,8 +11,8 @@ from .strip_solution import solve_strip
 
 PULLED_OFF = "below pull-off: no contact"
 
-#: strips across half a cell of level 1; penetrations at which a lower level is looked at, and strips at each: shares are known to
-#: a percent of the whole, hardly better with two and a half times as many strips
+#: strips across half a cell of level 1; penetrations at which a lower level is looked at, and strips at each: shares are mostly
+#: known to 1 % of the whole (of 351 levels of random surfaces, against four times as many of each, to 2.6 % at worst)
 _STRIPS, _DEPTHS, _FEWER = 200, (40, 20, 12), 40
 #: points along a strip
 _PHASES = 128
