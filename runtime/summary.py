@@ -45,7 +45,9 @@ def _inputs(result: Any) -> list[str]:
     m, a = result.material, result.adhesion
     known = excited(m, result.levels, result.velocity)
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
-    at = "" if result.temperature is None else f", at {result.temperature:.5g} K"
+    shift = getattr(m, "shift", None)  # a material at a temperature has none
+    at = f", as at T_ref = {shift.T_ref:.5g} K" if shift else ""
+    at = at if result.temperature is None else f", at {result.temperature:.5g} K"
     panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     given = f"penetration {span(result.penetration, 'm')}, " if result.load == "penetration" else ""
     at_load = f"{given}pressure {span(result.pressure, 'Pa')}"

@@ -278,6 +278,15 @@ def test_one_temperature_of_raw_data(tmp_path):
         read_dma(path)
 
 
+def test_frequencies_measured_twice_determine_no_more_times():
+    data = known(7e5, MODULI, TIMES, np.repeat([1.0, 10, 100], 4))
+    with pytest.raises(hystrip.InputError, match="3 relaxation times for 3 frequencies"):
+        fit_prony(data, terms=3)
+    with pytest.warns(FitWarning):
+        series = fit_prony(data, accuracy=1e-6)
+    assert len(series.times) <= 2 and np.isfinite(series.moduli_errors).all() and "fitted     12 points" in series.report()
+
+
 def test_band():
     data = known(7e5, MODULI, TIMES, 2 * np.pi * np.geomspace(1e-2, 1e4, 7))
     with pytest.warns(hystrip.dma.FitWarning):  # three frequencies of a spectrum that spans six decades

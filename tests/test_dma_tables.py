@@ -128,6 +128,7 @@ REFUSED = {
     "units that disagree": ("f;E' [MPa];E''\nHz;kPa;MPa\n1;2;1\n2;3;2\n", "unit below it: got 'kPa'; allowed: 'MPa' as in"),
     "frequencies that disagree": ("f [Hz];E';E''\nrad/s;MPa;MPa\n1;2;1\n2;3;2\n", "got 'rad/s'; allowed: 'Hz' as in the name"),
     "degrees that disagree": ("f;E';E'';T [K]\nHz;MPa;MPa;°C\n1;2;1;20\n2;3;2;20\n", "got '°C'; allowed: 'K' as in the name"),
+    "compliances": ("f [Hz];J' [1/MPa];J'' [1/MPa]\n1;2;1\n2;1;.5\n", "moduli where \"J' .*\" is a compliance: E' = J'/"),
     "one frequency": (HEAD + "5;2;0.3\n5;2.1;0.31\n", "frequency: got '2 rows of numbers, at 5 Hz alone'; .*two different"),
     "points or thousands": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n", "got '2.100'; .*read in one way"),
     "both in threes": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;1,210\n2;2.200;220\n", "read in one way"),

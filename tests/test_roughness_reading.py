@@ -103,7 +103,7 @@ def test_a_unit_of_lengths_leaves_stated_heights_alone(files, tmp_path):
         (
             "lengths",
             {"unit": "mm"},
-            "on a scan of 2e-05 m'; .. lengths in mm as the file says, heights in mm as given .. # Value units: um",
+            "on a scan of 2e-05 m'; .. lengths in mm as the file says, heights in mm as given .. # Value units: nm",
         ),
     ],
 )
@@ -321,6 +321,17 @@ def test_command_writes_a_scene_that_loads(run, files, tmp_path):
     scene = load_scene(tmp_path / "hystrip-out/scan.levels.toml")
     assert np.allclose([(level.l, level.h) for level in scene.levels], LEVELS, rtol=1e-5)
     assert (scene.title, float(scene.pressure)) == ("Surface of scan.nc", 1e5)
+
+
+def test_command_takes_heights_in_another_unit_than_lengths(run, files, tmp_path):
+    np.save(tmp_path / "nm.npy", eq4(LEVELS, 2e-5, 160) * 1e9)
+    options = [*2 * ["--size", "20"], "--unit", "um", "--pressure", "1", "--no-plot"]
+    status, _, err = run("levels", "nm.npy", *options)
+    assert status == 2 and "heights in another unit: --height-factor 1e-3 for nm with --unit um" in err
+    status, out, err = run("levels", "nm.npy", *options, "--height-factor", "1e-3")
+    assert (status, err) == (0, "") and "heights in µm as given, times 0.001" in out
+    scene = load_scene(tmp_path / "hystrip-out/nm.levels.toml")
+    assert [level.h for level in scene.levels] == pytest.approx([1e-6, 1e-7], rel=0.15)
 
 
 @pytest.mark.parametrize(

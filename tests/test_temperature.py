@@ -270,3 +270,10 @@ def test_sweep_over_temperature_and_moduli(run, tmp_path):
         assert status == 2 and "this one needs a [material.shift]" in err and "did you mean" not in err
     status, _, err = run("sweep", "one.toml", "--over", 'material.moduli[0]=["8 MPa/m"]')
     assert status == 2 and "unit of something else" in err
+
+
+def test_summary_says_at_which_temperature():
+    options = {"pressure": 1e5, "velocity": 1.0, "edge": "constitutive", "rtol": 1e-2}
+    level, none = hystrip.Level(l=1e-3, h=2e-5), hystrip.Dugdale(gamma=0)
+    assert ", as at T_ref = 293.15 K\n" in hystrip.solve(MATERIALS[3], none, level, **options).summary()
+    assert ", at 313.15 K\n" in hystrip.solve(MATERIALS[3], none, level, temperature=313.15, **options).summary()

@@ -32,6 +32,11 @@ def command(
     size: list[float] = typer.Option(
         None, "--size", help="Length of the scan in that unit, once for each direction, if the file does not say."
     ),
+    height_factor: float = typer.Option(
+        None,
+        "--height-factor",
+        help="What heights are multiplied with to be in their unit, such as 1e-3 for nm with --unit um.",
+    ),
     scene: str = typer.Option("starter", "--scene", help="The scene whose levels are replaced [that of `hystrip init`]."),
     pressure: str = typer.Option(None, "--pressure", help='Nominal pressure of the scene, such as "0.2 MPa" [that of SCENE].'),
     title: str = typer.Option(None, "--title", help="Title of the scene."),
@@ -65,7 +70,7 @@ def command(
         text = with_solver_seen_from(out, with_settings(scene_text(scene)[0], given), scene)
         # what is wrong with the scene is said before the work
         with_levels(text, [{"l": 1.0, "h": 1.0}], folder=out, allow_solver=allow_solver)
-    scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)
+    scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None, height_factor=height_factor)
     with as_options(_OPTIONS):
         found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
     ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"

@@ -12,6 +12,7 @@ from .pairs import PAIRS
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*/?\s*[\[({<](?P<unit>[^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])}>]$")
 _SLASHED = re.compile(r"^(?P<name>.+?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)$")
 _LOGARITHM = re.compile(r"\W*(log|lg|ln)(10|_|\W)", re.IGNORECASE)
+_COMPLIANCE = re.compile(r"[JD]\W*'|.*(compliance|nachgiebigkeit)", re.IGNORECASE)
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
 
 #: names as they stand after ``_plain``: without spaces, signs and case, primes as ' and "
@@ -87,6 +88,10 @@ def lacking(names: list[str]) -> tuple[int, str]:
         words.append(f"{'one more' if moduli else 'two'} of storage, loss (E', E'' or G', G''), |E*|, and tan delta or delta")
     if logarithms:
         words.append(f"the numbers themselves where {logarithms[0]!r} has logarithms")
+    compliances = [name for name in names if _COMPLIANCE.match(name)]
+    if compliances and moduli < 2:
+        inverse = "E' = J'/(J'^2 + J''^2), E'' = J''/(J'^2 + J''^2)"
+        words.append(f"moduli where {compliances[0]!r} is a compliance: {inverse}")
     missing = 3 - frequency - moduli
     return min(missing, 2) if len(logarithms) > 1 else missing, "; ".join(words)  # of these it is known what is wrong
 

@@ -129,9 +129,14 @@ def _as_data(data: Any, band: Any) -> DynamicModulus:
 def _refuse_too_many(count: int, unknowns: int, data: DynamicModulus) -> None:
     if count > MOST_TIMES:
         raise InputError("relaxation times", count, f"at most {MOST_TIMES}: give a smaller per_decade, or accuracy")
-    if unknowns > 2 * data.omega.size:
-        what = f"{count} relaxation times for {data.omega.size} frequencies"
+    if unknowns > 2 * _different(data):
+        what = f"{count} relaxation times for {_different(data)} frequencies"
         raise InputError("relaxation times", what, "fewer unknowns than moduli measured: give a smaller per_decade, or terms")
+
+
+def _different(data: DynamicModulus) -> int:
+    """How many frequencies were measured: one that was measured twice determines no more unknowns."""
+    return np.unique(data.omega).size
 
 
 def _count(data: DynamicModulus, per_decade: float) -> int:
@@ -151,7 +156,7 @@ def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
     """As few times as reach the accuracy, where they fit best; or, if none do, as few as leave about as little as any.
 
     How many are enough is seen from evenly spaced ones, if there are enough of these, which is had at once."""
-    most = min(MOST_TIMES, (2 * data.omega.size - 1) // 2)
+    most = min(MOST_TIMES, _different(data) - 1)
     found: dict[int, tuple[float, np.ndarray]] = {}
     placement = Placement(data)
 

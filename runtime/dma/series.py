@@ -42,7 +42,7 @@ class PronySeries:
     kind : ``"E"`` or ``"G"``, which modulus was measured
     offered : number of relaxation times offered to the fit; those that got no modulus were dropped
     band : lowest and highest frequency fitted, Hz; outside it the series says nothing
-    points : frequencies fitted
+    points : rows fitted, each with a storage and a loss modulus
     rms_storage, rms_loss : root mean square of the relative residuals of storage and loss modulus
     worst, worst_at : the largest relative residual, and its frequency, Hz
     relaxed_error, moduli_errors, times_errors : relative standard errors, from the residuals left and the linearised problem;
@@ -153,7 +153,7 @@ class PronySeries:
         """The terms and the quality of the fit, as text."""
         low, high = self.band
         lines = [
-            f"fitted     {self.points} frequencies, {low:.4g} to {high:.4g} Hz ({np.log10(high / low):.3g} decades)",
+            f"fitted     {self.points} points, {low:.4g} to {high:.4g} Hz ({np.log10(high / low):.3g} decades)",
             f"series     {_times(len(self.times))} of {self.offered} offered; "
             f"{self.kind} relaxed {self.relaxed:.4g} Pa, glassy {self.glassy:.4g} Pa",
             f"residuals  storage {100 * self.rms_storage:.2g} % rms, loss {100 * self.rms_loss:.2g} % rms, "

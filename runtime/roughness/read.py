@@ -7,6 +7,7 @@ import os
 import re
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -80,6 +81,7 @@ def read_surface(
                 options["unit"] = units.heights
             if height_factor is not None:
                 options["height_scale_factor"] = _factor(height_factor, where)
+                units = replace(units, said=f"{units.said}, times {height_factor:g}")
             return _even(reader.topography(**options), units, where)
     except InputError:
         raise

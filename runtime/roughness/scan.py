@@ -63,7 +63,8 @@ class Scan:
             what = f"heights that differ by {np.ptp(heights):.4g} m on a scan of {sizes.max():.4g} m"
             allowed = f"heights that differ by less than that: check the units{_after(self.units)}"
             if "as given" in self.units:  # --unit is one for both
-                allowed += "; text may state that of its heights in a line above: # Value units: um"
+                allowed += "; heights in another unit: --height-factor 1e-3 for nm with --unit um, "
+                allowed += "or in text a line above: # Value units: nm"
             raise InputError("scan.heights", what, allowed)
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "periodic", periodic)
