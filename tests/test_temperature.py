@@ -55,6 +55,18 @@ def test_a_reference_of_no_rubber_is_said(T_ref, odd):
     assert all(f"shift.T_ref is {T_ref:g} K" in str(each.message) and each.filename == __file__ for each in said)
 
 
+@pytest.mark.parametrize(
+    ("shift", "temperature", "said"),
+    [
+        (hystrip.Arrhenius(E_a=120.0, T_ref=293.15), 313.15, "shift.E_a is 120 J/mol; usual are 1000 J/mol and more: .* kJ/mol"),
+        (hystrip.Arrhenius(E_a=1e4, T_ref=293.15), 25, "temperature is 25 K; usual are 100 to 473.15 K; degrees have to be"),
+    ],
+)
+def test_units_that_shifts_and_temperatures_hardly_have_are_remarked_on(shift, temperature, said):
+    with pytest.warns(ShiftWarning, match=said):
+        hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4, shift=shift).at_temperature(temperature)
+
+
 def test_shift_factors_are_the_textbook_ones():
     T = np.array([283.15, 293.15, 333.15])
     assert np.log10(WLF.factor(T)) == pytest.approx(-8.86 * (T - 293.15) / (101.6 + T - 293.15), abs=1e-14)

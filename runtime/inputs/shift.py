@@ -14,10 +14,12 @@ from .checks import number, numbers
 R_GAS = 8.314462618
 #: decades that a shift may span: beyond, no time and no modulus is one of the material's
 _FURTHEST = 30.0
+#: J/mol: with less, 100 K shift no time by more than a fifth; kJ/mol taken for J/mol come out there
+_WEAKEST = 1000.0
 
 
 class ShiftWarning(UserWarning):
-    """A shift whose reference is a temperature of no rubber, as degrees taken for kelvin are."""
+    """Temperatures or an activation energy of no rubber, as degrees taken for kelvin, or kJ/mol for J/mol, are."""
 
 
 class Shift(Protocol):
@@ -114,14 +116,18 @@ class Arrhenius:
 
 def factors_at(shift: Shift | None, temperature: Any) -> tuple[float, float]:
     """``a_T`` and ``b_T`` at one temperature, K. Raises ``InputError``, also where there is no shift; warns (``ShiftWarning``) of
-    a reference that is no temperature of rubber."""
+    temperatures and an activation energy of no rubber."""
     T = number("temperature", temperature, "K", 0, strict=True)
     if shift is None:
         allowed = "None, or a material with a shift (hystrip.WLF, hystrip.Arrhenius; in a scene [material.shift])"
         raise InputError("temperature", temperature, allowed)
-    if not COLDEST <= shift.T_ref <= HOTTEST:
-        usual = f"usual are {COLDEST:g} to {HOTTEST:g} K; degrees have to be given in K, or in a scene with their unit"
-        warnings.warn(f"shift.T_ref is {shift.T_ref:g} K; {usual}", ShiftWarning, stacklevel=4)
+    usual = f"usual are {COLDEST:g} to {HOTTEST:g} K; degrees have to be given in K, or in a scene with their unit"
+    odd = [f"{name} is {each:g} K; {usual}" for name, each in (("shift.T_ref", shift.T_ref), ("temperature", T))
+           if not COLDEST <= each <= HOTTEST]  # fmt: skip
+    if isinstance(shift, Arrhenius) and shift.E_a < _WEAKEST:
+        odd.append(f"shift.E_a is {shift.E_a:g} J/mol; usual are {_WEAKEST:g} J/mol and more: may it be in kJ/mol?")
+    for remark in odd:
+        warnings.warn(remark, ShiftWarning, stacklevel=4)
     return float(shift.factor(T)), float(shift.modulus_factor(T))
 
 
