@@ -262,6 +262,26 @@ def test_operators_that_make_no_passive_solid_are_refused_with_the_reason(Q, P, 
         derive(operator_model("bad", (), Q, P))
 
 
+@pytest.mark.parametrize("of", ["relaxation", "retardation"])
+def test_two_equal_times_of_one_operator_are_a_solid_though_roundings_make_them_complex(of: str) -> None:
+    """Half of them were refused by the solver, and at regeneration."""
+    draw = random.Random(6)
+    for count in (2, 3, 4):
+        for _ in range(20):
+            K, first = 10 ** draw.uniform(3, 10), 10 ** draw.uniform(-6, 0)
+            later = [first * 10 ** (i + draw.uniform(0.1, 0.9)) for i in range(2 * count - 3)]
+            w_times, p_times = [first, *later[0::2]], [first, first, *later[1::2]]
+            if of == "retardation":
+                w_times, p_times = [first, first, *later[1::2]], [first / 3, first, *later[0 : 2 * count - 4 : 2]]
+            Q, P = (functools.reduce(np.convolve, ((1.0, time) for time in each), np.ones(1)) for each in (w_times, p_times))
+            assert inadmissible_series(operator_model("own", (), Q.tolist(), (P / K).tolist())) == []
+            found, series = modes.of_operators(Q, P / K)
+            s = 1j / first * np.geomspace(1e-3, 1e8, 9)
+            terms = series.eta[:, None] * s / (1 + series.alpha[:, None] * s)
+            exact = K * np.prod([(1 + w * s) / (1 + p * s) for w, p in zip(w_times, p_times, strict=True)], axis=0)
+            assert found * (1 + terms.sum(axis=0)) == pytest.approx(exact, rel=1e-11)
+
+
 def test_operators_whose_times_are_equal_but_for_roundings_are_a_solid() -> None:
     """Half of them were refused at regeneration as not passive, while the solver takes the same numbers."""
     draw = random.Random(5)

@@ -143,14 +143,22 @@ def inadmissible_series(model: Model) -> list[str]:
     return reasons
 
 
+NEAR = 2.0**-20  # roots nearer to each other, relative, are one: roundings move equal ones by some 1e-8
+
+
 def _not_interlaced(model: Model) -> list[str]:
     """The reason against operators whose coefficients are numbers and whose times are not real and interlaced."""
     if any(sp.sympify(c).free_symbols for c in (*model.Q, *model.P)):
         return []
     floats = lambda c: c.replace(lambda part: part.is_Float, sp.Rational)  # noqa: E731  to have roots with all their digits
     exact = {kind: [floats(sp.sympify(c)) for c in operator] for kind, operator in (("Q", model.Q), ("P", model.P))}
-    Q, P = (sp.Poly(sum(c * rate**n for n, c in enumerate(exact[kind])), rate).real_roots() for kind in "QP")
+    operators = {kind: sp.Poly(sum(c * rate**n for n, c in enumerate(exact[kind])), rate) for kind in "QP"}
     vanishes = lambda kind, root: rounded_to_zero(c * root**n for n, c in enumerate(exact[kind]))  # noqa: E731
+    Q, P = (operators[kind].real_roots() for kind in "QP")
+    for kind, roots, others in (("P", P, Q), ("Q", Q, P)):
+        lost = operators[kind].degree() - len(roots)  # two equal ones may have come out complex, at one of the other operator
+        met = [root for root in others if lost and vanishes(kind, root) and all(abs(1 - each / root) > NEAR for each in roots)]
+        roots += 2 * met[: lost // 2]
     met = sorted([(root, "Q") for root in Q] + [(root, "P") for root in P], reverse=True)  # largest times first
     n = len(model.Q) - 1
     alternate = ("QP" * n)[: len(met)]
