@@ -101,7 +101,7 @@ def span(values: Any, unit: str = "") -> str:
     """Range of the values that are not NaN; a dash without any."""
     values = np.ravel(values)
     values = values[~np.isnan(values)]
-    tail = f" {unit}" if unit else ""
+    tail = f" {unit}" if unit not in ("", "1") else ""
     if not values.size:
         return "-"
     digits = 5 if unit == "K" else 4  # 293.15 K

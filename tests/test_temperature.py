@@ -208,6 +208,15 @@ def test_sweep_over_a_shift(run, tmp_path):
         assert status != 0 and said in err, wrong
 
 
+def test_sweep_over_a_poisson_ratio(tmp_path):
+    (tmp_path / "nu.toml").write_text(SCENE, encoding="utf-8")
+    with pytest.raises(hystrip.InputError, match="material.nu: got 0.6; allowed: a Poisson ratio from 0 to 0.5"):
+        hystrip.sweep(tmp_path / "nu.toml", over={"material.nu": [0.3, 0.6]}, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    done = hystrip.sweep(tmp_path / "nu.toml", over={"material.nu": [0.3, 0.5]}, out=tmp_path / "out")
+    assert "over    nu (2): 0.3 .. 0.5\n" in str(done)
+
+
 def test_a_look_into_a_scene_is_at_its_temperature(run, tmp_path):
     (tmp_path / "shift.toml").write_text(SCENE, encoding="utf-8")
     status, out, err = run("show", "shift.toml")

@@ -80,8 +80,7 @@ class HalfSpace:
         check_fit(self.fit)
         E = number("material.E", self.E, "Pa", 0, strict=True)
         nu = number("material.nu", self.nu, "", 0)
-        if nu > 0.5:
-            raise InputError("material.nu", nu, "a Poisson ratio from 0 to 0.5")
+        check_poisson("material.nu", nu)
         series = _series(E, self.moduli, self.times, self.solver)
         for name, value in (("E", E), ("nu", nu), ("moduli", series.moduli), ("times", series.times)):
             object.__setattr__(self, name, value)
@@ -131,6 +130,13 @@ class HalfSpace:
     def __reduce__(self):
         make = partial(HalfSpace, shift=self.shift, fit=self.fit)
         return make, (self.E, self.nu, self.moduli, self.times, self.solver)
+
+
+def check_poisson(field: str, nu: Any) -> None:
+    """``InputError`` unless all of ``nu`` are numbers from 0 to 0.5."""
+    for each in np.ravel(numbers(field, nu, "", 0)):
+        if each > 0.5:
+            raise InputError(field, float(each), "a Poisson ratio from 0 to 0.5")
 
 
 def _series(E: float, moduli: Any, times: Any, solver: Any) -> Prony:

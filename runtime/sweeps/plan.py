@@ -14,6 +14,7 @@ import numpy as np
 from ..arguments import check_levels
 from ..errors import InputError
 from ..inputs.checks import numbers
+from ..inputs.half_space import check_poisson
 from ..inputs.materials import check_edge, kernel_of
 from ..inputs.shift import check_exponents
 from ..loading import solver_key
@@ -178,6 +179,8 @@ def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
     for key, each in quantities(values):
         if _last(key) == "vertical":
             check_exponents(key, each)
+        elif _last(key) == "nu":
+            check_poisson(key, each)
         elif key not in _LOADS:
             numbers(key, each, unit_of(key, is_half_space(values)), 0, strict=_last(key) in _POSITIVE)
     fixed = lambda path: not any(key.startswith(path) for key in swept)  # noqa: E731
