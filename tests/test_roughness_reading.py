@@ -236,6 +236,22 @@ def test_other_tables_are_no_matrix(files, tmp_path, text):
         read_surface(tmp_path / "table.csv", sizes=(20.0, 20.0), unit="um")
 
 
+def test_what_has_the_size_of_terrain_is_none(files, tmp_path):
+    """Any file of 2 n^2 bytes was read as n x n heights: an array of three dimensions, a table of moduli."""
+    sizes = {"sizes": (1e5, 1e5), "unit": "km"}
+    (tmp_path / "moduli.csv").write_text("f [Hz];E' [MPa];E'' [MPa]\n".ljust(2 * 30**2, " "))
+    (tmp_path / "noise.bin").write_bytes(np.random.default_rng(0).bytes(2 * 40**2))
+    (tmp_path / "N00E000.HGT").write_bytes(np.random.default_rng(1).bytes(2 * 40**2))
+    for name in ("moduli.csv", "noise.bin"):
+        with pytest.raises(hystrip.InputError, match="no format that SurfaceTopography knows"):
+            read_surface(tmp_path / name, **sizes)
+    assert read_surface(tmp_path / "N00E000.HGT", **sizes).heights.shape == (40, 40)
+    text = "\n".join(",".join(f"{each:.3f}" for each in row) for row in eq4(LEVELS, 2e-5, 50) * 1e6)
+    (tmp_path / "matrix.csv").write_text(text.ljust(2 * 90**2, "\n"))
+    assert len(text) < 2 * 90**2
+    assert read_surface(tmp_path / "matrix.csv", sizes=(20, 20), unit="um").heights.shape == (50, 50)
+
+
 def test_a_byte_order_mark_hides_no_number(files, tmp_path):
     path = text_scan(tmp_path / "marked.txt", "nothing")
     plain = read_surface(path, **SIZES, unit="um")

@@ -106,7 +106,12 @@ def _quiet() -> Iterator[None]:
 def _opened(topographies: Any, where: str) -> Any:
     """The file, opened; a matrix of numbers that commas or semicolons part as if tabs did."""
     try:
-        return topographies.open_topography(_with_points(where))
+        reader = topographies.open_topography(_with_points(where))
+        # terrain has no sign but its size: whatever has twice a square number of bytes would be one
+        if reader.format() == "hgt" and not where.lower().endswith(".hgt") and os.path.getsize(where):
+            reader.close()
+            raise topographies.Exceptions.CannotDetectFileFormat
+        return reader
     except topographies.Exceptions.CannotDetectFileFormat:
         with open(where, "rb") as file:
             lines = file.read().removeprefix(codecs.BOM_UTF8).splitlines()
