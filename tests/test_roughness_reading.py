@@ -1,6 +1,7 @@
 """Reading measured roughness: units, gaps and decimal commas, the command, and what cannot be read is named."""
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -234,6 +235,22 @@ def test_other_tables_are_no_matrix(files, tmp_path, text):
     (tmp_path / "table.csv").write_text(text)
     with pytest.raises(hystrip.InputError):
         read_surface(tmp_path / "table.csv", sizes=(20.0, 20.0), unit="um")
+
+
+@pytest.mark.parametrize(("name", "points"), [("wide.txt", (60, 40)), ("wide.npy", (40, 60))])
+def test_lengths_in_the_other_order_are_remarked_on(files, tmp_path, name, points):
+    """The first direction is along the rows of text, but across those of an array."""
+    heights = np.random.default_rng(0).normal(size=(40, 60)) * 1e-3
+    np.savetxt(tmp_path / "wide.txt", heights)
+    np.save(tmp_path / "wide.npy", heights)
+    right = tuple(count / 2 for count in points)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", hystrip.roughness.ScanWarning)
+        assert read_surface(tmp_path / name, unit="um", sizes=right).heights.shape == points
+        read_surface(tmp_path / name, unit="um", sizes=(30.0, 31.0))  # uneven either way
+    said = rf"sizes: {right[1]:g} x {right[0]:g} for {points[0]} x {points[1]} points puts these .* the other way round evenly"
+    with pytest.warns(hystrip.roughness.ScanWarning, match=said):
+        read_surface(tmp_path / name, unit="um", sizes=right[::-1])
 
 
 def test_what_has_the_size_of_terrain_is_none(files, tmp_path):

@@ -30,7 +30,9 @@ def command(
     channel: str = typer.Option(None, "--channel", help="Name of the channel [the file's default]."),
     unit: str = typer.Option(None, "--unit", help="Unit of what the file states no unit of: heights, lengths or both."),
     size: list[float] = typer.Option(
-        None, "--size", help="Length of the scan in that unit, once for each direction, if the file does not say."
+        None,
+        "--size",
+        help="Length of the scan in that unit, once for each direction (along rows of text first), if the file lacks it.",
     ),
     height_factor: float = typer.Option(
         None,

@@ -21,7 +21,7 @@ from .units import Units, lacks_lengths, units_of
 
 #: share of points that are filled without a warning: their roughness is missing from the levels
 _FEW = 0.02
-#: part of its steps by which a line of positions may be uneven, as numbers of few digits are
+#: part of their steps by which positions may be uneven, as numbers of few digits are
 _EVEN = 0.05
 #: mean steps of a line beyond which a step is a gap, which holds waves that its levels count
 _GAP = 4.0
@@ -56,7 +56,8 @@ def read_surface(
     channel : name of the channel; the file's default without it
     unit : length unit of all that the file states no unit of: heights, lengths, or both. Where it states both, either
         the same or None
-    sizes : lengths of the scan, one for each direction, in ``unit``, for a file that does not say
+    sizes : lengths of the scan, one for each direction, in ``unit``, for a file that does not say; of a matrix as text the one
+        along its rows comes first
     height_factor : what heights in the file have to be multiplied with to be in their unit, for a file that does not say
 
     Raises
@@ -196,7 +197,17 @@ def _lengths(channel: Any, sizes: tuple[float, ...] | None, where: str) -> dict[
         number(f"{where}, sizes", each, "", 0, strict=True)
     if len(sizes) != channel.dim:
         raise InputError(f"{where}, sizes", sizes, f"{channel.dim} of them (--size), one for each direction of the scan")
+    _remark_on_order(sizes, channel.nb_grid_pts, where)
     return {"physical_sizes": sizes}
+
+
+def _remark_on_order(sizes: tuple[float, ...], points: tuple[int, ...], where: str) -> None:
+    """Warn of two lengths that would part the points evenly the other way round."""
+    steps, others = (np.divide(lengths, points) for lengths in (sizes, sizes[::-1]))
+    if np.ptp(steps) > _EVEN * steps.max() and np.ptp(others) < _EVEN * others.max():
+        apart = f"{steps[0]:.4g} and {steps[1]:.4g} apart, and the other way round evenly: are they in the order of the points?"
+        lengths, counts = (" x ".join(f"{each:g}" for each in of) for of in (sizes, points))
+        warnings.warn(f"{where}, sizes: {lengths} for {counts} points puts these {apart}", ScanWarning, stacklevel=4)
 
 
 def _factor(given: Any, where: str) -> float:
