@@ -14,6 +14,8 @@ _FAR = 20
 #: share of the points that have one height, and times as many as have any other, from which it may mark what was not measured: if
 #: steps to it are so many times those between others, or, where it is zero, if it is shared by more than that
 _SHARED, _OFTEN, _STEP, _ZEROS = 1e-3, 5, 3, 0.02
+#: points that such a height is looked for among: sorting all of them takes as long as their spectrum
+_LOOKED_AT = 1_000_000
 
 
 class ScanWarning(UserWarning):
@@ -120,14 +122,16 @@ def _refuse_marks(heights: np.ndarray) -> None:
 
 def _remark_on_marks(heights: np.ndarray) -> None:
     """Warn of one height that points share as no others do, with steps to it as nowhere else; or of many that are zero."""
-    values, counts = np.unique(heights, return_counts=True)
+    some = heights.ravel()[:: 1 + heights.size // _LOOKED_AT]
+    values, counts = np.unique(some, return_counts=True)
     if values.size < 3:
         return
     second, most = np.partition(counts, -2)[-2:]
-    value, share = values[np.argmax(counts)], most / heights.size
-    if share < _SHARED or most < _OFTEN * second:
+    if most < max(_SHARED * some.size, _OFTEN * second):
         return
+    value = values[np.argmax(counts)]
     at = heights == value
+    share = at.mean()
     steps = np.concatenate([np.abs(np.diff(heights, axis=axis)).ravel() for axis in range(heights.ndim)])
     border = np.concatenate([np.diff(at, axis=axis).ravel() for axis in range(heights.ndim)])
     others = steps[~border & (steps > 0)]
