@@ -54,19 +54,20 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     below, falling, rising = field.c - above, above * r, (field.c - above) * r
     # of the positive terms, their rates and the rates of those, then of the negative ones
     terms = np.stack((above, falling, falling * r, below, rising, rising * r))
-    ahead = np.stack((field.start, end, np.broadcast_to(np.minimum(height, LARGEST), n), field.start, field.constant,
-                      field.a, field.b, np.hypot(field.a, field.b)))  # fmt: skip
+    ahead = np.stack((field.start, end, np.minimum(height, LARGEST), field.start, field.constant, field.a, field.b,
+                      np.hypot(field.a, field.b)))  # fmt: skip
     for number in range(_MAX_STEPS):
         if not index.size:
             break
-        step, low_first, slope, margin = _safe_step(ahead, r, terms, number == 0)
+        step, low_first, margin, shrinks = _safe_step(ahead, r, terms, number == 0)
         now, end, _, _, constant, _, _, size = ahead
-        # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
-        lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(constant) + size)) & (step <= _SMALL) & (low_first == (slope < 0))
-        reached = (step <= _ROUNDINGS * np.maximum(1.0, np.abs(now))) | lost_in_rounding
         now += step
-        beyond = now >= end
-        done = reached | beyond
+        done = beyond = now >= end
+        near = step <= _SMALL
+        if near.any():
+            # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
+            lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(constant) + size)) & shrinks
+            done = beyond | near & ((step <= _ROUNDINGS * np.maximum(1.0, np.abs(now))) | lost_in_rounding)
         if done.any():
             i = index[done]
             s[i] = np.where(beyond[done], end[done], now[done])
@@ -77,7 +78,7 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
 
 
 def _safe_step(ahead, r, terms, first: bool):
-    """A step that keeps the field in its range, whether the lower limit bounds it, the field's slope and room to that limit."""
+    """A step that keeps the field in its range, whether the lower limit bounds it, the room to that, and whether it shrinks."""
     now, _, height, start, constant, a, b, size = ahead
     cosine, sine = np.cos(now), np.sin(now)
     above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", terms, np.exp((start - now) * r))
@@ -99,14 +100,11 @@ def _safe_step(ahead, r, terms, first: bool):
     reach = _reach(gaps, rates, curvatures)
     step, up = np.maximum(reach[0], reach[1]), np.maximum(reach[2], reach[3])
     down = step <= up
-    return np.minimum(step, up), down, slope, np.where(down, low, room)
+    return np.minimum(step, up), down, np.where(down, low, room), down == (slope < 0)
 
 
 def _reach(value, slope, curvature):
     """Zero of ``value + slope t - curvature t^2/2`` that follows t = 0; 0 where the value is not positive nor rises from 0."""
     safe = np.maximum(value, 0.0)
-    root = np.sqrt(slope * slope + 2 * curvature * safe)
-    rising = slope > 0
-    divisor = np.where(rising, curvature, root - slope)
-    step = np.divide(np.where(rising, slope + root, 2 * safe), divisor, out=np.full(safe.shape, np.inf), where=divisor > 0)
-    return np.where((value < 0) | (value == 0) & ~rising, 0.0, step)
+    root = np.sqrt(slope * slope + 2 * curvature * safe) + np.abs(slope)
+    return np.where((slope > 0) & (value >= 0), root / curvature, 2 * safe / np.maximum(root, 1 / LARGEST))
