@@ -12,7 +12,7 @@ from ..groups import ROUNDING, TWO_PI
 from ..march import Orbit, turn
 from ..regimes import CODE
 from ..solved import Record, Solved, settle
-from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, agrees, certified
+from .extremal import ENGAGED, FREE, ORBIT, ROWS, STEPS, Search, agrees, certified
 from .march import march
 from .problem import ModeStrips, state_at, zones_of
 
@@ -54,27 +54,26 @@ class _Batch:
         left = np.flatnonzero(~free & ~closed & sticky)
         s = s.take(left)
         # states beyond all orbits; the highest is free
-        z = _lowest_state(self.kernel, s) if self.unloading else s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
-        self._first(left, z, np.full(left.size, self.unloading), ask=True)
+        self._first(left, _lowest_state(self.kernel, s) if self.unloading else s.m.share.sum(axis=1) * np.maximum(s.D, 0.0))
         return self.solved
 
-    def _first(self, index, z, engaged, ask: bool):
-        """Strips ``index`` from the states ``z`` beyond all orbits; ``ask``: the engaged orbit is not known yet."""
-        if not index.size:
-            return
-        found = Search(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask).run()
+    def _first(self, index, z):
+        """Strips ``index`` from the states ``z`` beyond all orbits."""
+        search = Search(self.kernel, self.strips.take(index), z, self.unloading)
+        # from below the first march tells which are never released: their engaged orbits are the first, or below all others
+        search.run(1 if self.unloading else STEPS)
+        held, constant = search.kind == ENGAGED, self.constant[index]
+        self._closed(index[held & constant])
+        k = np.flatnonzero(held & ~constant)
+        z, known = self._always_engaged(index[k], "ac", search.edges[:, k])
+        on = known & ~self.solved.certified[index[k]] & self.unloading
+        search.resume(k[on], z[:, on])
+        search.run()
         self.solved.searched[index] = True
-        self.record.constant(index[found.kind == FREE], "f")
-        orbit = found.kind == ORBIT
+        self.record.constant(index[search.kind == FREE], "f")
         for sequence in ROWS:
-            k = np.flatnonzero(orbit & (found.sequence == CODE[sequence]))
-            self.record.orbits(index[k], sequence, Orbit.of(sequence, found.edges[list(ROWS[sequence])][:, k]))
-        closed = (found.kind == ENGAGED) & self.constant[index] & (not self.unloading)
-        self._closed(index[closed])
-        held = np.flatnonzero((found.kind == ENGAGED) & ~closed)
-        z, known = self._always_engaged(index[held], "ac", found.edges[:, held])
-        rest = np.flatnonzero(known & ~self.solved.certified[index[held]] & self.unloading)
-        self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
+            k = np.flatnonzero((search.kind == ORBIT) & (search.sequence == CODE[sequence]))
+            self.record.orbits(index[k], sequence, Orbit.of(sequence, search.edges[list(ROWS[sequence])][:, k]))
 
     def _closed(self, index):
         """Saturated contact, or adhesion all along."""
@@ -82,9 +81,8 @@ class _Batch:
         self.record.saturated_adhesion(index[~self.full[index]])
 
     def _always_engaged(self, index, sequence, met=None):
-        """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
-
-        Returns their states and which are known."""
+        """Write those of the always engaged orbits of the strips ``index`` that are orbits of the strip; the states of all, and
+        which are known."""
         if not index.size:
             return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
         s = self.strips.take(index)
@@ -123,7 +121,7 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None):
         edges[:, left], good, rounded = certified(kernel, here, "ac", np.nan_to_num(_engaged_edges(met)))
         k = left[good]
         here = s.take(k)
-        z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)
+        z[:, k] = state_at(kernel, "ac", here, edges[:, k], here.start)
         period = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
         # rounding may make one of no length in the valley of a contact all but a period long: its middle is next to the crest
         one = (period.contacts == 1) & ~period.lost & (np.abs(edges[:, k].sum(axis=0)) < np.pi)

@@ -7,14 +7,14 @@ from ...numerics.rounding import EPS
 from ..certificate import STABLE
 from ..chain import CONVERGED
 from ..groups import ROUNDING, TWO_PI
-from ..regimes import CODE, EDGES
-from .forced import AGREE, Forced
+from ..regimes import CODE, EDGES, SEQUENCES
+from .forced import AGREE, SETTLING, Forced
 from .march import march
-from .problem import ModeStrips, state_at
+from .problem import ModeStrips
 from .windows import alone, balanced, linearised, links, newton
 
 #: where a strip is given up; steps of Newton's method: far from a narrow contact each shrinks it by a third only
-_STEPS, _ITERATIONS = 300, 40
+STEPS, _ITERATIONS = 300, 40
 #: a chain of windows leads to an orbit or to where orbits have vanished: each goes such a share of what is left, at most
 _SHARE = 0.35
 #: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
@@ -31,25 +31,28 @@ ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 class Search:
     """Search for the first orbits above (``rising``) or below the states ``z`` (n, N), with their ``kind`` (ENGAGED, FREE, ORBIT,
     UNRESOLVED), ``edges`` (4, N) in the order d, b, a, c, those that are missing like d, and regime ``sequence`` (place in
-    ``SEQUENCES``); or the edges of marches that were engaged all along, unless those are ``released``.
+    ``SEQUENCES``); or the edges of marches that were engaged all along: from below, only the first one may end the search so.
 
     ``z``, ``engaged``: states at the start that bound all orbits; ``edges``: also of orbits that may not be the first."""
 
-    def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool, released: bool):
+    def __init__(self, kernel, s: ModeStrips, z, rising: bool):
         self.kernel, self.s, self.rising, self.active = kernel, s, rising, np.arange(s.size)
-        self.z, self.engaged, self.ends_held = z, engaged, not (rising and released)
+        self.z, self.engaged, self.steps = z, np.full(s.size, rising), 0
         self.kind, self.edges, self.known = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size)
-        self.sequence, self.share = np.zeros(s.size, int), np.full(s.size, _SHARE)
+        self.sequence, self.share, self.states = np.zeros(s.size, int), np.full(s.size, _SHARE), np.empty((4, s.modes, s.size))
         # states and shares a round of trials ago
         self.before = np.full((s.modes + 1, s.size), np.nan)
 
-    def run(self):
-        """Search until all strips are decided, or given up."""
-        for step in range(_STEPS):
-            if not self.active.size:
-                break
-            self.step(step)
-        return self
+    def run(self, steps: int = STEPS) -> None:
+        """Search until all strips are decided, or given up, or so many ``steps`` are done."""
+        while self.active.size and self.steps < steps:
+            self.step(self.steps)
+            self.steps += 1
+
+    def resume(self, i, z) -> None:
+        """Search on for the strips ``i``, found to be engaged all along, from the states ``z`` of their engaged orbits."""
+        self.z[:, i], self.kind[i], self.edges[:, i] = z, UNRESOLVED, np.nan
+        self.active = np.union1d(self.active, i)
 
     def step(self, number: int) -> None:
         """March from the bounding states, decide what that decides, and move the others."""
@@ -57,7 +60,7 @@ class Search:
         s = self.s.take(i)
         near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
-        held = near.never_free & self.ends_held
+        held = near.never_free & (not self.rising or number == 0)
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         self.kind[i[held]], self.kind[i[lets]] = ENGAGED, FREE
         self.edges[:, i[held]] = near.edges[:, held]
@@ -91,7 +94,7 @@ class Search:
         """Which strips ``i`` have an orbit that is alone in the windows of the ``edges``, the first one, or fills them."""
         proven, k = np.zeros(i.size, bool), np.flatnonzero(~np.isnan(self.edges[0, i]))
         if k.size:
-            orbit = Forced(self.kernel, self.s.take(i[k]), self.edges[:, i[k]])
+            orbit = Forced(self.kernel, self.s.take(i[k]), self.edges[:, i[k]], self.states[..., i[k]])
             d, b, a, c = edges[:, k]
             apart = np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0)
             proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE) | (apart <= AGREE + self.known[i[k]])
@@ -104,11 +107,10 @@ class Search:
     def _stable(self, i) -> np.ndarray:
         """Where the spectral radius of the return map is at most one, as is true of both extremal orbits."""
         good = np.zeros(i.size, bool)
-        for sequence in ROWS:
+        for sequence in {SEQUENCES[code] for code in self.sequence[i]}:
             k = np.flatnonzero(self.sequence[i] == CODE[sequence])
             s, edges = self.s.take(i[k]), self.edges[np.array(ROWS[sequence])[:, None], i[k]]
-            matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *s.arguments)
-            matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
+            matrix = np.moveaxis(getattr(self.kernel, f"return_map_{sequence}")(*edges, *s.arguments), -1, 0)
             finite = np.isfinite(matrix).all(axis=(1, 2))
             radius = np.abs(np.linalg.eigvals(np.where(finite[:, None, None], matrix, 0.0))).max(axis=1)
             good[k] = finite & (radius <= 1 + STABLE)
@@ -117,21 +119,23 @@ class Search:
     def _move(self, i, edges, number: int) -> None:
         """To the orbits forced by the windows of the ``edges``, or to the last of a chain of them; at first to the orbits: slow
         modes stand still in a march, and its edges may be far from those of any orbit."""
-        orbit, good = Forced.settled(self.kernel, self.s.take(i), edges, not self.rising)
-        i, orbit = i[good], orbit.take(np.flatnonzero(good))
-        if number and i.size:
+        s = self.s.take(i)
+        if number:
             with np.errstate(all="ignore"):
-                chain, clear = self._chain(i, orbit, number >= _FULL)
+                chain, clear, good = self._chain(i, Forced(self.kernel, s, edges), number >= _FULL)
             reached = np.cumprod(clear, axis=0).sum(axis=0)
             # shorter links where few hold, longer ones where all do
             factor = np.select((reached == 0, reached < 4, reached >= _WINDOWS - 1), (0.125, 0.5, 4.0), 1.0)
             self.share[i] = np.minimum(self.share[i] * factor, _SHARE)
             orbit = chain.take(reached * i.size + np.arange(i.size))
+        else:
+            orbit, good = Forced.settled(self.kernel, s, edges, 1 if self.rising else SETTLING)
+        i, orbit = i[good], orbit.take(np.flatnonzero(good))
         self.z[:, i], self.engaged[i] = orbit.at(self.s.start[i])
         self._proven(i, orbit.edges)
 
     def _chain(self, i, orbit: Forced, full: bool):
-        """Orbits forced by windows, strips after strips, that grow from those of ``orbit``, and which links hold between them."""
+        """Orbits forced by windows that grow from those of ``orbit``; which links hold between them; which first ones settle."""
         sign = 1.0 if self.rising else -1.0
         d, _, a, c = orbit.edges
         # towards the orbit that is known, or past where one has vanished: Newton's step is half as long as the way there
@@ -141,8 +145,7 @@ class Search:
         room = np.minimum((c - a) / way[0], (c - d) / way.sum(axis=0)) if self.rising else (d + TWO_PI - c) / way.sum(axis=0)
         shares = 1 - (1 - self.share[i]) ** np.arange(_WINDOWS if full else _FEW)[:, None]
         if full:
-            past = np.broadcast_to(np.array(_FARTHER)[:, None], (len(_FARTHER), i.size))
-            shares = np.concatenate((shares, 2 - shares[::-1], past))
+            shares = np.concatenate((shares, 2 - shares[::-1], np.outer(_FARTHER, np.ones(i.size))))
         growth = np.minimum(shares, np.maximum(0.9 * np.nan_to_num(room), 0.0))[:, None] * way  # not all the room
         many = np.tile(np.arange(i.size), len(shares))
         s, first = orbit.s.take(many), (way[0] < way[1])[many]
@@ -153,14 +156,13 @@ class Search:
             d_1, c_1 = d[many] + v, c[many] - u
             guess = np.stack((d_1, *np.clip(contact, d_1, c_1), c_1))
             if not last:
-                chain, _ = Forced.settled(self.kernel, s, guess, False)
+                chain, _ = Forced.settled(self.kernel, s, guess, 1)
                 contact = chain.edges[1:3]
                 here = balanced(growth.swapaxes(0, 1).reshape(2, -1), *linearised(chain, self.rising), first)
                 growth[1:] = here.reshape(2, -1, i.size).swapaxes(0, 1)[1:]
-        chain, settles = Forced.settled(self.kernel, s, guess, not self.rising)
-        near, far = np.arange(many.size - i.size), np.arange(i.size, many.size)
-        clear = settles[far] & settles[near] & links(chain.take(near), chain.take(far), self.rising)
-        return chain, clear.reshape(-1, i.size)
+        chain, settles = Forced.settled(self.kernel, s, guess, SETTLING if not self.rising else 0 if full else 1)
+        near, far, settles = chain.take(slice(-i.size)), chain.take(slice(i.size, None)), settles.reshape(-1, i.size)
+        return chain, links(near, far, self.rising).reshape(-1, i.size) & settles[1:] & settles[:-1], settles[0]
 
     def _newton(self, i, edges) -> None:
         """Orbits from the ``edges`` that the marches of the strips ``i`` met."""
@@ -176,16 +178,17 @@ class Search:
         k = np.flatnonzero(good)
         if not k.size:
             return
-        part, edges, rows = s.take(k), edges[:, k], list(ROWS[sequence])
-        z, engaged = state_at(self.kernel, sequence, part, edges, part.start)
-        period = march(self.kernel, part, engaged, z, part.start)
+        rows = list(ROWS[sequence])
+        whole = edges[[rows.index(row) if row in rows else 0 for row in range(4)]][:, k]
+        orbit = Forced(self.kernel, s.take(k), whole)
+        z, engaged = orbit.at(orbit.s.start)
+        period = march(self.kernel, orbit.s, engaged, z, orbit.s.start)
         # a turn meets these edges, each once, and nothing else
         once = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c"))
-        ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], edges, known[k])
-        index, edges = index[k[ok]], edges[:, ok]
+        ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], whole[rows], known[k])
+        index = index[k[ok]]
         self.sequence[index], self.known[index] = CODE[sequence], known[k[ok]]
-        self.edges[:, index] = edges[0]
-        self.edges[np.array(rows)[:, None], index] = edges
+        self.edges[:, index], self.states[..., index] = whole[:, ok], orbit.states[..., ok]
 
 
 def agrees(met, edges, known):
@@ -215,15 +218,12 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
     last, attainable = np.full(N, np.inf), np.full(N, np.inf)
     active = np.arange(N)
     for iteration in range(_ITERATIONS):
-        s, before = strips.take(active), last[active]
+        s, before = strips.among(active), last[active]
         here = edges[:, active]
-        matrix = np.empty((s.size, len(here), len(here)))
-        residual, rows = linearised(*here, *s.arguments)
-        for i, row in enumerate(rows):
-            for j, entry in enumerate(row):
-                matrix[:, i, j] = entry
+        residual, rows = map(np.array, linearised(*here, *s.arguments))
+        matrix = rows.transpose(2, 0, 1)
         inverted = solve_each(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
-        step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual)))
+        step = -np.einsum("Nij,jN->iN", inverted, residual)
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
         better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > STABLE))

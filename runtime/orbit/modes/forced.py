@@ -17,7 +17,7 @@ from .problem import ModeStrips, rates
 _CELLS = np.linspace(0.0, 1.0, 7) ** 1.5
 #: agreement of edges with those that a turn meets: orbits err by the square of that; and after how many turns forced ones are
 #: given up: Newton's method takes three or four, thirteen where it narrows a contact by two fifths each
-AGREE, _SETTLING = 1e-7, 16
+AGREE, SETTLING = 1e-7, 16
 
 
 class Forced:
@@ -44,17 +44,18 @@ class Forced:
         return Forced(self.kernel, self.s.take(index), self.edges[:, index], self.states[..., index])
 
     @classmethod
-    def settled(cls, kernel, s: ModeStrips, edges: np.ndarray, exactly: bool = True):
-        """Orbits in the windows of ``edges`` with contacts they come to; which settled. Not ``exactly``: in a turn, from below.
+    def settled(cls, kernel, s: ModeStrips, edges: np.ndarray, turns: int = SETTLING):
+        """Orbits in the windows of ``edges`` with contacts they come to in so many ``turns``; which settled, if that is more
+        than one, or have a state: none needs more to be a bound from below.
 
         The window that is returned ends with the contact that holds at its start, and where its gap closes."""
         found, left, good = cls(kernel, s, edges.copy()), np.arange(s.size), np.zeros(s.size, bool)
-        for _ in range(_SETTLING if exactly else 1):
+        for _ in range(turns):
             left = left[np.isfinite(found.states[..., left]).all(axis=(0, 1))]
             if not left.size:
                 break
             here = found.take(left)
-            after, followed = here.turned(edges[[0, 3]][:, left], exactly)
+            after, followed = here.turned(edges[[0, 3]][:, left], turns > 1)
             change = after - here.edges
             # a strip that snaps into contact does so at its onset: orbits err by as much as these are apart, not by its square
             together = ~here.s.snaps | (np.abs(change[1] - change[0]) <= AGREE**2)
@@ -62,7 +63,7 @@ class Forced:
             left, after = left[~good[left]], after[:, ~good[left]]
             found.edges[:, left] = after
             found.states[..., left] = cls(kernel, s.take(left), after).states
-        return found, good if exactly else np.isfinite(found.states).all(axis=(0, 1))
+        return found, good if turns > 1 else np.isfinite(found.states).all(axis=(0, 1))
 
     def turned(self, wide, exactly: bool):
         """Edges of a turn that starts from the orbit at the onset, in the window ``wide`` (d, c); and whether it was followed.
@@ -101,8 +102,9 @@ class Forced:
         return np.where(end < limit, kernel.contact_pressure(limit, overstress, s.D), 0.0)
 
     def at(self, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """State at a ``phase`` in the period from c on, and whether it is engaged there."""
+        """State at a ``phase``, and whether it is engaged there."""
         d, b, _, c = self.edges
+        phase = c + np.mod(phase - c, TWO_PI)
         s, (_, free, adhering, touching) = self.s, self.states
         engaged, contact = phase > d + TWO_PI, phase > b + TWO_PI
         start = np.where(engaged, d + TWO_PI, c)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..batch import Batch, pick
+from ..batch import Batch
 from ..groups import TWO_PI
 from ..regimes import EQUATIONS, ZONES
 
@@ -45,7 +45,7 @@ class ModeStrips(Batch):
     @property
     def step(self) -> np.ndarray:
         """Width of the relay: the step ``J_0 p_0`` of w where the pressure steps by ``p_0``, (N,)."""
-        return np.broadcast_to(self.m.J_0 * self.p_0, self.D.shape)
+        return self.m.J_0 * self.p_0
 
     @property
     def start(self) -> np.ndarray:
@@ -53,8 +53,8 @@ class ModeStrips(Batch):
         return np.full(self.size, np.pi)
 
     def take(self, index) -> ModeStrips:
-        """The strips at ``index``; of ``Modes`` the last axis."""
-        m = type(self.m)(*(pick(each, index) for each in self.m))
+        """The strips at ``index``; of ``Modes`` the last axis, one of length one is shared and stays."""
+        m = type(self.m)(*[each if each.shape[-1] == 1 else each[..., index] for each in self.m])
         return ModeStrips(m, self.p_0[index], self.delta_0[index], self.D[index], self.snaps[index], self.bare)
 
 
@@ -80,14 +80,13 @@ def zones_of(kernel, sequence, s: ModeStrips, edges):
 
 
 def state_at(kernel, sequence, s: ModeStrips, edges, phase):
-    """State z (n, N) of orbits at a ``phase`` (N,), and whether they are engaged there."""
-    phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
-    state, engaged = np.empty((s.modes, s.size)), np.zeros(s.size, bool)
+    """State z (n, N) of orbits at a ``phase`` (N,)."""
+    phase, state = edges[0] + np.mod(phase - edges[0], TWO_PI), np.empty((s.modes, s.size))
     for zone, start, entry, z in zones_of(kernel, sequence, s, edges):
-        inside, later = phase >= start, np.maximum(phase, start)
+        later = np.maximum(phase, start)
         if zone == "c":
             change = kernel.contact_increment(start, later, entry, s.m)
         else:
             change = kernel.relaxation_increment(start, later, z, -s.p_0 if zone == "a" else 0.0, s.m)
-        state, engaged = np.where(inside, z + change, state), np.where(inside, zone != "f", engaged)
-    return state, engaged
+        state = np.where(phase >= start, z + change, state)
+    return state

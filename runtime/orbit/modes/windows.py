@@ -109,8 +109,8 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
     c_0, d_0 = (np.maximum(c_0, c), np.minimum(d_0, d)) if rising else (np.minimum(c_0, c), np.maximum(d_0, d))
     with np.errstate(all="ignore"):
         if rising:
-            steep_c, steep_d = orbit.adhering(c_0)[0], -orbit.falling(d_0)[1]
-            apart = s.delta_0 - 0.5 * orbit.falling(d_0)[0] * (d - d_0)
+            (least, greatest), steep_c = orbit.falling(d_0), orbit.adhering(c_0)[0]
+            steep_d, apart = -greatest, s.delta_0 - 0.5 * least * (d - d_0)
             contact, highest = (b, a), s.step
         else:
             excess = lambda phase: orbit.excess(np.clip(phase, b, a))  # noqa: E731
@@ -183,14 +183,15 @@ def links(orbit: Forced, target: Forced, rising: bool) -> np.ndarray:
 def linearised(orbit: Forced, rising: bool):
     """How far the gaps at release and onset are beyond what would make the window an orbit's, (2, N), and by how much less
     that is per growth of the window at either edge, (2, 2, N)."""
-    s = orbit.s
+    s, kernel = orbit.s, orbit.kernel
     d, b, a, c = orbit.edges
     y_c, y_d = orbit.gaps()
     room = np.stack((y_c - s.delta_0 - s.step, y_d - s.delta_0)) * (1 if rising else -1)
     jump = np.where(s.snaps, s.delta_0, s.step)  # of w at an onset: the whole gap where the point snaps into contact
     falls = -responses(s, (b, a), ((c, c), (d, d)), (s.step, jump), True)
-    steep_c = np.where(a < c, orbit.adhering(c)[0], -s.m.J_0 * orbit.excess(c)[1])
-    falls[[0, 1], [0, 1]] += steep_c, -orbit.falling(d)[0]
+    slope = lambda at, start, z, p: kernel.gap_event(at, *kernel.gap_entry(start, z, p, s.D, s.m))[1]  # noqa: E731
+    steep_c = np.where(a < c, slope(c, a, orbit.states[0], -s.p_0), -s.m.J_0 * orbit.excess(c)[1])
+    falls[[0, 1], [0, 1]] += steep_c, -slope(d + TWO_PI, c, orbit.states[1], 0.0)
     return room, falls
 
 
