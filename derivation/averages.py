@@ -7,6 +7,7 @@ import sympy as sp
 from . import stable
 from .check import Derived, derived, zero
 from .functions import Formula, either, loss_mean, written_out
+from .integral import integral
 from .kernel import Kernel, Kernels, as_derived, kernel
 from .modes.states import J_j, summed, w
 from .modes.states import p as load
@@ -78,7 +79,7 @@ def _added(zone: Zone, zones: Kernels) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
         height = stable.RELAXATION_INTEGRAL(first, last, zone.displacement, zone.load, beta)
         return zone.load * (last - first), height, zone.load * stable.PROFILE_RISE(first, last)
     pressure = zones["excess_after"].exact.subs({q_0: zone.entry, s_0: first, s_1: s}, simultaneous=True) - p_0
-    pressed = sp.integrate(sp.expand(pressure), (s, first, last))
+    pressed = integral(pressure, s, first, last)
     work = stable.CONTACT_WORK(first, last, sp.expand(zone.entry - p_0), D, alpha, beta, L)
     return pressed, stable.PROFILE_INTEGRAL(first, last, D), work
 

@@ -2,6 +2,7 @@
 
 import sympy as sp
 
+from .integral import integral
 from .symbols import D, D_level, h, k, l, s, x, y
 
 HEIGHT = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
@@ -23,7 +24,7 @@ WAVE = {k: 2 * sp.pi / l}
 
 def mean_over_wave(quantity: sp.Expr, along: sp.Symbol) -> sp.Expr:
     """Mean over one wavelength along x or y."""
-    return sp.integrate(sp.expand(quantity), (along, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)
+    return integral(quantity, along, 0, 2 * sp.pi / k) * k / (2 * sp.pi)
 
 
 def mean_over_cell(quantity: sp.Expr) -> sp.Expr:

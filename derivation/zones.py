@@ -6,16 +6,17 @@ from . import stable
 from .check import Claim, derived, holds, zero
 from .flows import Flows
 from .functions import Formula
+from .integral import integral
 from .kernel import Kernel, kernel
 from .symbols import D, J, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
 
 
 def over_zone(integrand: sp.Expr, name: str) -> tuple[sp.Expr, Claim]:
     """The integral of a flow from s_0 to s_1, and why it is that; ``name``: of the flow."""
-    primitive = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(sp.expand(integrand))))
-    integral = primitive.subs(s, s_1) - primitive.subs(s, s_0)
-    left = [sp.diff(integral, s_1) - integrand.subs(s, s_1), integral.subs(s_1, s_0)]
-    return integral, zero(f"the integral differentiates to {name}, and vanishes with the zone", left, phases=(s_0, s_1))
+    primitive = integral(integrand, s)
+    over = primitive.subs(s, s_1) - primitive.subs(s, s_0)
+    left = [sp.diff(over, s_1) - integrand.subs(s, s_1), over.subs(s_1, s_0)]
+    return over, zero(f"the integral differentiates to {name}, and vanishes with the zone", left, phases=(s_0, s_1))
 
 
 def zones(flows: Flows) -> tuple[Kernel, ...]:

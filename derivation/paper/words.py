@@ -5,6 +5,7 @@ from typing import Any
 
 import sympy as sp
 
+from ..integral import integral
 from ..surface import HEIGHT, WAVE
 from ..symbols import D_level, K, T_eps, T_sigma, V, delta_0, h, l, p_0, x, y
 
@@ -35,17 +36,7 @@ def strips(number: int, place: Callable[[int, sp.Expr], sp.Expr] | None = None) 
     where = place or (lambda j, wide: (sp.Integer(j) - sp.Rational(1, 2)) * wide)
 
     def summed(body: sp.Expr, first: sp.Expr, last: sp.Expr) -> sp.Expr:
-        done = body.replace(sp.Integral, _term_by_term).doit()
+        done = body.replace(sp.Integral, lambda inner, over: integral(inner.doit(), *over)).doit()
         return sum((done.subs(y_j, where(j, width)) for j in range(int(first), int(last) + 1)), sp.Integer(0))
 
     return {"N": sp.Integer(number), r"\Delta": width, "sum over j": summed}
-
-
-def _term_by_term(body: sp.Expr, over: sp.Tuple) -> sp.Expr:
-    """A definite integral, every term of its body by itself and without what does not depend on the variable."""
-    variable, low, high = over
-    total = sp.Integer(0)
-    for term in sp.Add.make_args(sp.expand(body.doit())):
-        constant, varying = term.as_independent(variable, as_Add=False)
-        total += constant * sp.integrate(varying, (variable, low, high))
-    return total
