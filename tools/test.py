@@ -30,6 +30,8 @@ def spread(arguments):
 
 def main(arguments):
     exe = _environment.python("test", ["test"])
+    for library in ("OMP", "OPENBLAS"):
+        os.environ.setdefault(library + "_NUM_THREADS", "1")  # there is a worker on every core
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
         status = _environment.run(exe, "-m", "pytest", *spread(arguments), "--junitxml=" + report, *arguments)
