@@ -75,29 +75,31 @@ def vanishes(expression: sp.Expr) -> bool:
     plain = plain.replace(halves, lambda e: named("sqrt", e.base, e.base) ** (2 * e.exp))
     generators = set().union(*map(_generators, (plain, *squares.values())))
     ring = sp.ring(sorted(generators, key=str) or "x", sp.QQ)[0]
-    relations = [(ring.symbols.index(name), *_fraction(squares[name], ring)) for name in squares if name in generators]
+    divisors: set[Any] = set()
+    fraction = lambda of: _fraction(of, ring, divisors)  # noqa: E731
+    relations = [(ring.symbols.index(name), *fraction(squares[name])) for name in squares if name in generators]
 
     def left(polynomial: Any) -> Any:
         for index, upper, lower in reversed(relations):
             polynomial = _without_squares(ring, polynomial, index, upper, _product(ring, lower))
         return polynomial
 
-    numerator, divisors = _fraction(plain, ring)
-    return not left(numerator) and all(map(left, divisors))
+    return not left(fraction(plain)[0]) and all(map(left, divisors))
 
 
-def _fraction(expression: sp.Expr, ring: Any) -> tuple[Any, Counter]:
-    """Numerator, and what it is divided by: polynomials with their powers."""
+def _fraction(expression: sp.Expr, ring: Any, divisors: set[Any]) -> tuple[Any, Counter]:
+    """Numerator, and what it is divided by: polynomials with their powers; ``divisors``: all that is divided by in it."""
     if expression.is_Add:
-        parts = [_fraction(part, ring) for part in expression.args]
+        parts = [_fraction(part, ring, divisors) for part in expression.args]
         common = functools.reduce(operator.or_, (below for _, below in parts))
         return sum((above * _product(ring, common - below) for above, below in parts), ring.zero), common
     if expression.is_Mul:
-        parts = [_fraction(part, ring) for part in expression.args]
+        parts = [_fraction(part, ring, divisors) for part in expression.args]
         return math.prod((above for above, _ in parts), start=ring.one), sum((below for _, below in parts), Counter())
     if expression.is_Pow and expression.exp.is_Integer:
-        (above, below), power = _fraction(expression.base, ring), int(expression.exp)
+        (above, below), power = _fraction(expression.base, ring, divisors), int(expression.exp)
         if power < 0:
+            divisors.add(above)
             return _product(ring, below) ** -power, Counter({above: -power})
         return above**power, Counter({each: n * power for each, n in below.items()})
     return ring.from_expr(expression), Counter()

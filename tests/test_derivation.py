@@ -249,6 +249,7 @@ def test_zero_is_proven_and_not_guessed() -> None:
     # nothing over nothing is not nothing
     for nothing in (alpha * (beta + 1) - alpha * beta - alpha, sp.sin(s_0) ** 2 + sp.cos(s_0) ** 2 - 1):
         assert is_zero(nothing) and not is_zero(nothing / sp.Mul(nothing, beta, evaluate=False)) and not is_zero(alpha / nothing)
+        assert not is_zero(1 / (1 + 1 / nothing))
     assert is_zero(1 / (1 / (1 + alpha) + 1 / beta) - beta * (1 + alpha) / (1 + alpha + beta))
     assert not is_zero(1 / (1 / (1 + alpha) + 1 / beta) - beta * (1 - alpha) / (1 + alpha + beta))
 
