@@ -278,6 +278,12 @@ def test_utf_16_has_its_mark(tmp_path):
         read_dma(tmp_path / "a.txt")
 
 
+@pytest.mark.parametrize("none", ["", "-", "---", "–", "n/a", "NA", "null", "NaN"])
+def test_a_row_with_a_cell_that_says_there_is_no_number_is_left_out(tmp_path, none):
+    found = read_dma(written(tmp_path, f"f [Hz];E' [MPa];E'' [MPa]\n0.5;1.5;0.25\n2;2;{none}\n5;3;0.75\n"))
+    assert found.storage.tolist() == [1.5e6, 3e6] and "1 row left out: a number is missing" in found.columns
+
+
 def test_numbers_that_are_none_in_the_first_row_are_no_units(tmp_path):
     (tmp_path / "a.csv").write_text("f [Hz];E' [Pa];E'' [Pa]\n1.0D+00;2.0D+00;3.0D+00\n2.0D+00;3.0D+00;4.0D+00\n")
     with pytest.raises(hystrip.InputError, match=r"line 2, column 'f \[Hz\]': got '1.0D\+00'; allowed: a number"):
