@@ -22,8 +22,8 @@ from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 MEAN = 0.4
 #: pressures in an interval are known at least this well, of their range, unless all in it may err by more
 _COARSEST = 1e-3
-#: nodes of an interval at first and before it is divided, and one more
-_FIRST, _LAST = 12, 96
+#: nodes of an interval, and one more: those that tell what pressures it comes to, the first, and the last before it is divided
+_LOOK, _FIRST, _LAST = 6, 12, 96
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
 #: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it
@@ -102,22 +102,12 @@ def interpolate(
 ) -> list[list[Piece]]:
     """Pieces of each column that interpolate the means over the intervals, on at least ``first`` nodes. ``budget``:
     how much the pressures of an interval count."""
-    work, stages = _Work(columns, first, [[] for _ in range(columns.size)]), [Stage(intervals, first)]
-    while stages := [stage for stage in stages if stage.parts.size]:
-        stages = sampled(stages, Intervals.at, lambda parts, D: means_in(columns, parts, D))
-        if budget is not None:
-            # only now is it known what pressures intervals come to, and so how well they have to be known
-            stages, budget = [_that_count(columns, budget, stage) for stage in stages], None
+    work = _Work(columns, budget, first, [[] for _ in range(columns.size)])
+    # a budget has to know what pressures an interval comes to before it says how well they have to be known
+    stages = [Stage(intervals, first if budget is None else _LOOK)] if intervals.size else []
+    while stages:
         stages = work.refine(stages)
     return work.pieces
-
-
-def _that_count(columns: LevelBatch, budget: ErrorBudget, stage: Stage) -> Stage:
-    """The intervals that laws may come to, as coarse as the ``budget`` allows."""
-    if columns.branch == "loading":
-        ends = stage.parts.low, stage.parts.at(interior_nodes(stage.n)), stage.parts.high
-        stage = stage.take(~before_least(stage, np.column_stack(ends)))
-    return replace(stage, parts=weighed(columns, budget, stage.parts, stage.known[0]))
 
 
 @dataclass
@@ -125,17 +115,26 @@ class _Work:
     """See ``interpolate``. Of its stages the parts are intervals, and known are means, their errors and zones."""
 
     columns: LevelBatch
+    budget: ErrorBudget | None
     first: int
     pieces: list[list[Piece]]
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
-        """Keep what has converged; return what is left, divided where more nodes would not help."""
-        going, parts = [], []
-        for stage in stages:
-            left, goal, hopeless = self._converged(stage)
-            going.append(left.take(~hopeless))
-            parts += self._divided(left.take(hopeless), goal[hopeless])
-        return [*going, Stage(Intervals.joined(parts), self.first)] if parts else going
+        """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
+        going, divided = [], []
+        for stage in sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D)):
+            if stage.n > _LOOK:
+                left, goal, hopeless = self._converged(stage)
+                divided.append((left.take(hopeless), goal[hopeless]))
+                going.append(left.take(~hopeless))
+            else:
+                if self.columns.branch == "loading":
+                    ends = stage.parts.low, stage.parts.at(interior_nodes(stage.n)), stage.parts.high
+                    stage = stage.take(~before_least(stage, np.column_stack(ends)))
+                going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0])))
+        parts = [part for stage, goal in divided for part in self._divided(stage, goal)]
+        fresh = [Stage(Intervals.joined(parts), self.first)] if parts else []
+        return [stage for stage in (*going, *fresh) if stage.parts.size]
 
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:
         """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
