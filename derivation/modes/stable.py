@@ -48,8 +48,8 @@ from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
 from .symbols import J_0, J, S, across, back, enter, eta, f, f_0, m, sandwich, share, total, z, z_0
 
 response, time, rates, moved, rate_end = sp.symbols("response time rates moved rate_end", real=True)
-harmonic, transient, creep, creep_end, creep_start, lost = sp.symbols(
-    "harmonic transient creep creep_end creep_start lost", real=True
+harmonic, transient, fading, kept, creep, creep_end, creep_start, lost = sp.symbols(
+    "harmonic transient fading kept creep creep_end creep_start lost", real=True
 )
 decayed, lapsed, stiff, lossy = sp.symbols("decayed lapsed stiff lossy", real=True)
 
@@ -158,11 +158,11 @@ CONTACT_PASSAGE = Formula(
     (s_0, s_1, z_0, p_in, m),
     (
         across(share, creep - S * f_0 * lost),
-        across(share, creep_start - S * f_0 * rate_end),
-        across(share, creep_end + S * f_0 * rate_end),
-        PROFILE_RISE(s_0, s_1) + total(f_0 * lost + moved * decay(width, alpha) - harmonic * lost),
+        across(share, creep_start - fading),
+        across(share, creep_end + fading),
+        PROFILE_RISE(s_0, s_1) + total(f_0 * lost + moved * kept - harmonic * lost),
         -back(enter, lost),
-        total(transient + _fall(s_0) * decay(width, alpha)) - PROFILE_SLOPE(s_0),
+        total(transient + eta * unit * cos_ahead * kept) - PROFILE_SLOPE(s_0),
         PROFILE_SLOPE(s_1) - total(transient + _fall(s_1)),
     ),
     (
@@ -172,13 +172,15 @@ CONTACT_PASSAGE = Formula(
         _response[1],
         (f_0, OVERSTRESS(z_0, p_in, m)),
         (lost, decay_loss(width, alpha)),
-        (rate_end, decay_rate(width, alpha)),
+        (kept, decay(width, alpha)),
+        (rate_end, per_time(kept, alpha)),
+        (fading, S * f_0 * rate_end),
         _creep,
         (creep_end, -unit * (sin_ahead * (lost + versine(width)) + cos_ahead * sp.sin(width))),
-        (creep_start, unit * (sin_ahead * lost + cos_ahead * width * decay_mean(width, alpha))),
+        (creep_start, unit * lost * (sin_ahead - alpha * cos_ahead)),
         _rise,
         _end,
-        (transient, (f_0 - _field(s_0)) * rate_end),
+        (transient, (f_0 - eta * unit * sin_ahead) * rate_end),
     ),
 )
 EXCESS_ENTRY = Formula(

@@ -51,39 +51,41 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     s, which = field.start.copy(), np.full(n, LOST)
     # of the strips that go on, ``index``: where each is now, up to where it goes, the upper limit, and the field's parts
     index, r, above = np.arange(n), field.r, np.maximum(field.c, 0.0)
-    below, falling, rising = field.c - above, above * r, (field.c - above) * r
-    # of the positive terms, their rates and the rates of those, then of the negative ones
-    terms = np.stack((above, falling, falling * r, below, rising, rising * r))
+    falling, rising = above * r, (field.c - above) * r
+    # rates; terms; how fast the positive and the negative ones fall; how fast that does
+    terms = np.stack((r, field.c, falling, rising, falling * r, rising * r))
     ahead = np.stack((field.start, end, np.minimum(height, LARGEST), field.start, field.constant, field.a, field.b,
                       np.hypot(field.a, field.b)))  # fmt: skip
     for number in range(_MAX_STEPS):
         if not index.size:
             break
-        step, low_first, margin, shrinks = _safe_step(ahead, r, terms, number == 0)
+        step, low_first, margin, slope, curvature = _safe_step(ahead, terms, number == 0)
         now, end, _, _, constant, _, _, size = ahead
         now += step
         done = beyond = now >= end
         near = step <= _SMALL
         if near.any():
             # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
-            lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(constant) + size)) & shrinks
-            done = beyond | near & ((step <= _ROUNDINGS * np.maximum(1.0, np.abs(now))) | lost_in_rounding)
+            lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(constant) + size)) & (low_first == (slope < 0))
+            # what is left behind a step follows from its square
+            left = step * np.minimum(1.0, curvature * step / np.maximum(np.abs(slope), 1 / LARGEST))
+            done = beyond | near & ((left <= _ROUNDINGS * np.maximum(1.0, np.abs(now))) | lost_in_rounding)
         if done.any():
             i = index[done]
             s[i] = np.where(beyond[done], end[done], now[done])
             which[i] = np.where(beyond[done], NONE, np.where(low_first[done], LOWER, UPPER))
             rest = np.flatnonzero(~done)
-            index, ahead, r, terms = index[rest], ahead[:, rest], r[:, rest], terms[..., rest]
+            index, ahead, terms = index[rest], ahead[:, rest], terms[..., rest]
     return s, which
 
 
-def _safe_step(ahead, r, terms, first: bool):
-    """A step that keeps the field in its range, whether the lower limit bounds it, the room to that, and whether it shrinks."""
+def _safe_step(ahead, terms, first: bool):
+    """A step that keeps the field in its range, whether the lower limit bounds it, the room to that, slope, most curvature."""
     now, _, height, start, constant, a, b, size = ahead
     cosine, sine = np.cos(now), np.sin(now)
-    above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", terms, np.exp((start - now) * r))
+    decayed, fast, slow, bend, lift = np.einsum("kiN,iN->kN", terms[1:], np.exp((start - now) * terms[0]))
     harmonic = b * cosine - a * sine
-    value = constant + a * cosine + b * sine + above + below
+    value = constant + a * cosine + b * sine + decayed
     slope = harmonic - fast - slow
     low, room = value, height - value
     if first:
@@ -100,7 +102,7 @@ def _safe_step(ahead, r, terms, first: bool):
     reach = _reach(gaps, rates, curvatures)
     step, up = np.maximum(reach[0], reach[1]), np.maximum(reach[2], reach[3])
     down = step <= up
-    return np.minimum(step, up), down, np.where(down, low, room), down == (slope < 0)
+    return np.minimum(step, up), down, np.where(down, low, room), slope, curvatures[1] + bend
 
 
 def _reach(value, slope, curvature):

@@ -160,7 +160,9 @@ class Search:
                 contact = chain.edges[1:3]
                 here = balanced(growth.swapaxes(0, 1).reshape(2, -1), *linearised(chain, self.rising), first)
                 growth[1:] = here.reshape(2, -1, i.size).swapaxes(0, 1)[1:]
-        chain, settles = Forced.settled(self.kernel, s, guess, SETTLING if not self.rising else 0 if full else 1)
+        # a few windows that settle late would cost as many turns of all: they end their chains
+        turns = (0 if full else 1) if self.rising else SETTLING // 2
+        chain, settles = Forced.settled(self.kernel, s, guess, turns)
         near, far, settles = chain.take(slice(-i.size)), chain.take(slice(i.size, None)), settles.reshape(-1, i.size)
         return chain, links(near, far, self.rising).reshape(-1, i.size) & settles[1:] & settles[:-1], settles[0]
 
@@ -168,27 +170,21 @@ class Search:
         """Orbits from the ``edges`` that the marches of the strips ``i`` met."""
         contact, snaps = edges[2] > edges[1], self.s.snaps[i]
         for sequence, kind in (("acaf", contact & ~snaps), ("afc", contact & snaps), ("af", ~contact & ~snaps)):
-            k = np.flatnonzero(kind)
-            if k.size:
-                self._from(i[k], sequence, edges[list(ROWS[sequence])][:, k])
-
-    def _from(self, index, sequence: str, edges) -> None:
-        s = self.s.take(index)
-        edges, good, known = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
-        k = np.flatnonzero(good)
-        if not k.size:
-            return
-        rows = list(ROWS[sequence])
-        whole = edges[[rows.index(row) if row in rows else 0 for row in range(4)]][:, k]
-        orbit = Forced(self.kernel, s.take(k), whole)
-        z, engaged = orbit.at(orbit.s.start)
-        period = march(self.kernel, orbit.s, engaged, z, orbit.s.start)
-        # a turn meets these edges, each once, and nothing else
-        once = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c"))
-        ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], whole[rows], known[k])
-        index = index[k[ok]]
-        self.sequence[index], self.known[index] = CODE[sequence], known[k[ok]]
-        self.edges[:, index], self.states[..., index] = whole[:, ok], orbit.states[..., ok]
+            if not kind.any():
+                continue
+            rows, index = list(ROWS[sequence]), i[kind]
+            s = self.s.take(index)
+            found, good, known = certified(self.kernel, s, sequence, np.maximum.accumulate(edges[rows][:, kind], axis=0))
+            k = np.flatnonzero(good)
+            orbit = Forced(self.kernel, s.take(k), found[[rows.index(row) if row in rows else 0 for row in range(4)]][:, k])
+            z, engaged = orbit.at(orbit.s.start)
+            period = march(self.kernel, orbit.s, engaged, z, orbit.s.start)
+            # a turn meets these edges, each once, and nothing else
+            ok = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c")) & ~period.lost
+            ok &= (period.engaged == period.engaged_before) & agrees(period.edges[rows], orbit.edges[rows], known[k])
+            index, known = index[k[ok]], known[k[ok]]
+            self.sequence[index], self.known[index] = CODE[sequence], known
+            self.edges[:, index], self.states[..., index] = orbit.edges[:, ok], orbit.states[..., ok]
 
 
 def agrees(met, edges, known):
@@ -234,8 +230,8 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         noise = (1 + np.abs(s.D) + s.delta_0) / s.m.J_0 + s.p_0
         noise = EPS * (noise[:, None] + np.pi * np.abs(matrix).sum(axis=2))
         attainable[moved] = np.einsum("Nij,Nj->Ni", np.abs(inverted), noise).max(axis=1)[better]
-        # steps that shrink as fast again: the next one need not be taken
-        ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
+        # Newton's next step is this one times the square of the last ratio: it need not be taken
+        ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before)) ** 2
         settled = ahead <= _SETTLED
         last[active[better & settled]] = ahead[better & settled]
         on = (size < _SHRINKS * before) | (size < STABLE) | (iteration < _LOST_AFTER)

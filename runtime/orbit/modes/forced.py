@@ -32,13 +32,14 @@ class Forced:
         (d, b, a, c), kernel, s, m = self.edges, self.kernel, self.s, self.s.m
         lost, driven = kernel.contact_map(b, a, kernel.profile(b, s.D) / m.J_0, m)
         # a contact that is entered with any state: the pressure there follows from it, and counts as much as -J of z
-        contact = lost + across(lost, m.J)[:, None] / m.J_0, driven
-        maps = (kernel.relaxation_map(a, c, -s.p_0, m), kernel.relaxation_map(c, d + TWO_PI, 0.0, m),
-                kernel.relaxation_map(d, b, -s.p_0, m), contact)  # fmt: skip
-        states = [solved_modes(*over_period(maps))]
-        for lost, driven in maps[:-1]:
+        lost = lost + across(lost, m.J)[:, None] / m.J_0
+        maps = ((lost, driven), kernel.relaxation_map(a, c, -s.p_0, m), kernel.relaxation_map(c, d + TWO_PI, 0.0, m),
+                kernel.relaxation_map(d, b, -s.p_0, m))  # fmt: skip
+        touching = solved_modes(*over_period(maps))
+        states = [touching + driven - across(lost, touching)]
+        for lost, driven in maps[1:-1]:
             states.append(states[-1] + driven - lost * states[-1])
-        return np.stack(states)
+        return np.stack((*states, touching))
 
     def take(self, index) -> Forced:
         return Forced(self.kernel, self.s.take(index), self.edges[:, index], self.states[..., index])

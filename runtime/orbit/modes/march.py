@@ -13,6 +13,8 @@ from .crossing import LOST, LOWER, NONE, Field, first_crossing
 from .problem import ModeStrips, rates
 
 CONTACT, ADHESION, FREE = 0, 1, 2
+#: row of the edge (d, b, a, c) between a zone and the next
+_EDGES = np.array(((2, 2, 2), (1, 3, 3), (0, 0, 0)))
 #: zones in a period: more than seven are met where a gap opens by no more than rounding, dozens next to saturated contact
 _MAX_ZONES = 60
 #: phase within which rounding decides whether a zone that begins where its limit is leads away from it
@@ -23,8 +25,8 @@ _BRIEF = 1e-5
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``edges``: phase of the first onset, entry, exit and release, NaN where none, (4, N); ``counts``: onsets, entries and
-    releases, (3, N). ``lost``: not followed to the end.
+    ``edges``: phase of the first onset, entry, exit and release, NaN where none, (4, N); ``counts``: how many of each are met.
+    ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -34,7 +36,7 @@ class Period:
     counts: np.ndarray
     lost: np.ndarray
 
-    onsets, contacts, releases = (property(lambda self, k=k: self.counts[k]) for k in range(3))
+    onsets, contacts, releases = (property(lambda self, k=k: self.counts[k]) for k in (0, 1, 3))
 
     @property
     def never_free(self) -> np.ndarray:
@@ -58,7 +60,7 @@ def march(kernel, s: ModeStrips, engaged, z, start, length=TWO_PI) -> Period:
     """Follow every point from the phase ``start`` (N,) for one turn, or for the ``length`` given."""
     n, N = z.shape
     letter, engaged_before = zone_at(kernel, s, engaged, z, start)
-    out = Period(engaged_before, engaged_before.copy(), np.zeros((n, N)), np.full((4, N), np.nan), np.zeros((3, N), int),
+    out = Period(engaged_before, engaged_before.copy(), np.zeros((n, N)), np.full((4, N), np.nan), np.zeros((4, N), int),
                  np.zeros(N, bool))  # fmt: skip
     index, here, limit, begin, pressure = np.arange(N), s, start + length, start, None
     for _ in range(_MAX_ZONES):
@@ -131,12 +133,11 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
 
 
 def _note(out: Period, i, letter, end, following):
-    """Write the event that ends a zone of the points ``i`` into the record."""
-    onset, release = (letter == FREE) & (following >= 0), following == FREE
-    enters, leaves = following == CONTACT, (letter == CONTACT) & (following >= 0)
-    for edge, which in zip(out.edges, (onset, enters, leaves, release), strict=True):
-        there = i[which]
-        edge[there] = np.where(np.isnan(edge[there]), end[which], edge[there])
-    for count, which in zip(out.counts, (onset, enters, release), strict=True):
-        count[i[which]] += 1
-    out.engaged[i[onset]], out.engaged[i[release]] = True, False
+    """Write the event that ends a zone of the points ``i`` into the record; a snap into contact is an onset and an entry."""
+    edge, met = _EDGES[letter, following], following >= 0
+    for which, rows in ((met, edge), ((edge == 0) & (following == CONTACT), np.ones_like(edge))):
+        if which.any():
+            there = rows[which], i[which]
+            out.edges[there] = np.where(out.counts[there] == 0, end[which], out.edges[there])
+            out.counts[there] += 1
+    out.engaged[i[met]] = following[met] != FREE

@@ -44,6 +44,8 @@ long as Newton's steps: next to a fold, where the map from window to window hard
 
 import numpy as np
 
+from hystrip.generated.modes import across, sandwich
+
 from ...numerics.linear import solve_each
 from ..groups import TWO_PI
 from .forced import Forced, chords
@@ -66,7 +68,7 @@ def responses(s: ModeStrips, contact, ends, forcing, upper: bool, moved=None, ap
     def sums(matrix, amplitudes, short, long):
         near, far = (amplitudes * np.exp(-np.maximum(t, 0.0) * rate) for t in ((short, long) if upper else (long, short)))
         rising, falling = np.maximum(matrix, 0.0), np.minimum(matrix, 0.0)
-        return np.maximum(np.einsum("ij...,j...->i...", rising, near) + np.einsum("ij...,j...->i...", falling, far), 0.0)
+        return np.maximum(across(rising, near) + across(falling, far), 0.0)
 
     share, one = np.swapaxes(s.m.share, 0, 1), np.ones((n, s.size))
     rows = sums(share, one, c_1 - a, c_2 - a), sums(share, one, d_1 + TWO_PI - a, d_2 + TWO_PI - a)
@@ -80,16 +82,15 @@ def responses(s: ModeStrips, contact, ends, forcing, upper: bool, moved=None, ap
     if apart is not None:
         fills = -np.expm1(-(d_2 - d_1) * rates(s.m.alpha))  # the dashpots, in the contact of the lower orbit
         fills = np.divide(fills, d_2 - d_1, out=rates(s.m.alpha) * np.ones_like(fills), where=d_2 > d_1)
-        z = np.einsum("ij...,j...->i...", s.m.share, apart * fills) * np.exp(-np.maximum(soonest, 0.0) * rate)
-        columns[1] = np.minimum(columns[1], np.einsum("ij...,j...->i...", back, z))
+        z = across(s.m.share, apart * fills) * np.exp(-np.maximum(soonest, 0.0) * rate)
+        columns[1] = np.minimum(columns[1], across(back, z))
     if moved is not None:
-        columns[1] = np.maximum(columns[1] + moved[1] * np.einsum("ij...,j...->i...", back, kicks), 0.0)
+        columns[1] = np.maximum(columns[1] + moved[1] * across(back, kicks), 0.0)
     # what a period forgets: small where foundations are slow, so it is added up by itself
     fade = np.expm1(-(a - b) * rates(s.m.alpha))
-    forgets = np.moveaxis(back, -1, 0) @ (np.expm1((a - b - TWO_PI) * rate).T[:, :, None] * np.moveaxis(s.m.share, -1, 0))
-    matrix = -(1 + fade.T)[:, :, None] * forgets
-    matrix[:, range(n), range(n)] -= fade.T
-    x = solve_each(matrix, np.moveaxis((1 + fade) * np.stack(columns), -1, 0).swapaxes(1, 2))
+    matrix = -(1 + fade)[:, None] * sandwich(back, np.expm1((a - b - TWO_PI) * rate), s.m.share)
+    matrix[range(n), range(n)] -= fade
+    x = solve_each(matrix.transpose(2, 0, 1), ((1 + fade) * np.stack(columns)).transpose(2, 1, 0))
     r = np.einsum("kiN,Nij->kjN", np.stack(rows), x)
     between = d_1 + TWO_PI - c_2 if upper else d_2 + TWO_PI - c_1
     r[1, 0] += forcing[0] * (kicks * np.exp(-np.maximum(between, 0.0) * rate)).sum(axis=0)
