@@ -139,8 +139,10 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
             # edges stay inside their arcs
             least, most = edges + _FARTHEST * (low - edges), edges + _FARTHEST * (high - edges)
             edges = _in_order(np.minimum(np.maximum(edges + move, least), most))
-            # a step this small leaves an error of its square. Where the map does not contract there is no extremal orbit ahead
-            going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
+            # a step this small leaves an error of its square. Where the map does not contract there is no extremal orbit ahead, nor
+            # one of this sequence where a step is longer than the period: a zone of it vanishes
+            ahead = (slope < 1) & (size < TWO_PI) | (iteration == 1)
+            going = np.flatnonzero((size > STABLE) & ahead) if iteration < ITERATIONS else index[:0]
             if going.size < index.size:
                 result[:, index], converged[index] = edges, size <= STABLE
                 if not going.size:
