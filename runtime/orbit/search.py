@@ -7,7 +7,7 @@ last one. A zero is skipped by no one: an interval is left behind only when a bo
 Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. From the left end of an
 interval, where r > 0, ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)`` with ``fall >= F - N``; and likewise from the
 right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. All other
-intervals are divided, into three parts more each time: most searches end in the second or third round, and for those next to a
+intervals are divided, into three parts more each time: most searches end in the first or second round, and for those next to a
 fold or a graze, which go on, the way to rounding is short.
 """
 
@@ -45,7 +45,7 @@ class Search:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
         if index.size:
             index, frontier, stop = self._start(index)
-            beyond, parts = stop, 1
+            beyond, parts = stop, 3
             while index.size:
                 index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, parts)
                 parts += 3
@@ -84,8 +84,12 @@ class Search:
 
     def _start(self, index):
         """Marches from both ends of the arc; a known orbit stands for the far one."""
-        cycle = self.cycle.take(index)
-        frontier = self.march(index, self.start[index])
+        cycle, stop, known = self.cycle.take(index), self.known.take(index), self.known.x[index]
+        open_ = np.flatnonzero(np.isnan(known))
+        far = (cycle.centre + self.sign * cycle.half_d)[open_]
+        both = self.march(np.append(index, index[open_]), np.append(self.start[index], far))
+        frontier = both.take(slice(index.size))
+        stop.put(open_, both.take(slice(index.size, None)))
         # before all orbits r is positive: where rounding says otherwise the bound on them is not used
         end = cycle.centre - self.sign * cycle.half_d
         blurred = np.flatnonzero((self.sign * frontier.r <= 0) & ~frontier.engaged & (frontier.x != end))
@@ -94,29 +98,20 @@ class Search:
         # r has the other sign at the very start only where the orbit sits there, to rounding, or where the strip stays
         # engaged through the period: from the last onset on, then, from every onset
         at_start = self.sign * frontier.r <= 0
-        stop = self.known.take(index)
         # rounding may push a known orbit past the end
-        accepted = np.flatnonzero((at_start & ~frontier.engaged) | (~at_start & (self.sign * (stop.x - frontier.x) <= 0)))
+        accepted = np.flatnonzero((at_start & ~frontier.engaged) | (~at_start & (self.sign * (known - frontier.x) <= 0)))
         self._isolated(index[accepted], frontier.take(accepted), frontier.take(accepted))
         keep = ~at_start | (frontier.engaged & (not self.last))
         keep[accepted] = False
         keep = np.flatnonzero(keep)
-        index, frontier, stop, cycle = index[keep], frontier.take(keep), stop.take(keep), cycle.take(keep)
-        open_ = np.flatnonzero(np.isnan(stop.x))
-        if open_.size:
-            stop.put(open_, self.march(index[open_], (cycle.centre + self.sign * cycle.half_d)[open_]))
-        return index, frontier, stop
+        return index[keep], frontier.take(keep), stop.take(keep)
 
     def _advance(self, index, frontier: Orbit, beyond: Orbit, stop: Orbit, parts: int):
         """Divide the interval from each frontier to the onset ``beyond`` into ``parts``; exclude them, and what is left up
         to ``stop``, one after another, until one is not excluded: it brackets an orbit, or is divided in the next round."""
         n = index.size
         inner = frontier.x + (beyond.x - frontier.x) * (np.arange(1, parts)[:, None] / parts)
-        every = np.tile(np.arange(n), parts - 1)
-        points = [frontier, beyond, stop]
-        if parts > 1:
-            points.insert(1, self.march(index[every], inner.ravel()))
-        points = Orbit.joined(points)
+        points = Orbit.joined([frontier, self.march(np.tile(index, parts - 1), inner.ravel()), beyond, stop])
         here, there = points.take(slice(0, -n)), points.take(slice(n, None))
         excluded, unique = self._judged(np.tile(index, parts + 1), here, there)
         excluded, unique = excluded.reshape(parts + 1, n), unique.reshape(parts + 1, n)
