@@ -204,6 +204,29 @@ def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
+    ("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge"),
+    [
+        (1.1991e-7, 1.74732e-9, 2.40596e-9, 2.03999e-6, 8.10676e-8, 4.05772e-6, "continuous"),
+        (1.01e-7, 1.036e-9, 1.833e-9, 8.036e-6, 9.099e-8, 1.437e-5, "continuous"),
+        (5.265e-6, 1.047e-9, 9.526e-9, 9.745e-7, 3.381e-8, 4.152e-6, "constitutive"),
+    ],
+)
+def test_what_loading_has_met_before_is_no_part_of_its_law(T_sigma, gamma, delta_0, l, h, V, edge):  # noqa: E741
+    """Where gaps stop to open the pressure falls like the logarithm of the distance, then rises to what it was and beyond: of all
+    between, down to 1e-15 of ``h``, nothing is looked at closely. The law is that of single pressures on both sides of it."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    level, how = hystrip.Level(l, h), {"V": V, "edge": edge, "branch": "loading"}
+    law = hystrip.friction_law(material, adhesion, level, rtol=1e-5, **how)
+    assert law.converged and law.strips < 15_000
+    opens = h - delta_0 - adhesion.p_0 / material.K
+    met = hystrip.solve_level(material, adhesion, level, D=opens * (1 - 1e-9), rtol=1e-6, **how).p_mean
+    p = np.append(np.array([0.98, 1.01]) * met, 0.95 * law.p_sat)
+    each = hystrip.solve_level(material, adhesion, level, pressure=p, rtol=1e-6, **how)
+    assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1] + 1e-6 * law.tau_sat).all()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
     ("T_sigma", "gamma", "delta_0", "levels", "pressure", "V"),
     [
         (2.6357e-9, 1.532e-9, 1.15831e-8, [(1e-5, 3.19361e-6), (1.05554e-6, 9.94736e-10)], 7.58029, 3.294e-7),

@@ -23,7 +23,7 @@ from .strips import LevelBatch
 _ROUGH, _NODES, _NARROW, _APART = 5e-3, 4, 0.1, (0.1, 0.9)
 #: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights; share of an interval, from
 #: its top, at which it is seen whether the pressure goes on falling
-_SHORT, _TOP = 1e-3, 5e-3
+_SHORT, _TOP = 1e-2, 5e-3
 
 
 def trace(
@@ -93,7 +93,7 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
 
 def _without_hidden(columns: LevelBatch, intervals: Intervals) -> Intervals:
     """The intervals ending where gaps that adhere throughout open, if they end little above: with short memory all strips let go
-    there at once and the pressure falls. Above that an interval of its own, unless loading surely met more pressure before."""
+    there at once and the pressure falls. Above that an interval of its own, from where loading may not have met more before."""
     K, h = columns.material.K, columns.level.h
     # nearer to a threshold than that rounding decides strip by strip
     opens, nearest = h + columns.opens, 64 * EPS * (h - columns.opens)
@@ -103,14 +103,19 @@ def _without_hidden(columns: LevelBatch, intervals: Intervals) -> Intervals:
     if upper.size:
         width = upper.width[:, None]
         beside = np.minimum(np.maximum(upper.atol[:, :1] / K, nearest) / width, _APART[0])
-        shares = np.concatenate((beside * [-1, 1], [_APART] * upper.size), axis=1)
-        D, each = (opens + shares * width).ravel(), upper.take(np.repeat(np.arange(upper.size), 4))
-        values, errors, _ = _rough_means(columns, each, D)
-        low, high = (each[:, 0].reshape(-1, 4) for each in (values - errors, values + errors))
-        # pressure rises by K times the penetration at most
+        # the pressure falls like a logarithm of the distance before it rises
+        near = beside * (_APART[0] / beside) ** np.linspace(0, 1, _NODES)
+        shares = np.concatenate((-beside, near, [np.linspace(*_APART, 2 * _NODES)[1:]] * upper.size), axis=1)
+        D, each = opens + shares * width, upper.take(np.repeat(np.arange(upper.size), shares.shape[1]))
+        values, errors, _ = means_in(columns, each, D.ravel())
+        low, high = (each[:, 0].reshape(shares.shape) for each in (values - errors, values + errors))
+        # it rises by K times the penetration at most; below zero, as the first strips cling, loading begins where it is least
         most = high[:, 1:] + K * width * np.diff(shares[:, 1:], axis=1, append=1.0)
-        # the pressure falls below zero as the first strips cling: loading begins where it is least
-        upper = upper.take((low[:, 0] <= 0) | (most.max(axis=1) > low[:, 0]))
+        more = (most > low[:, :1]) | (low[:, :1] <= 0)
+        first = more.argmax(axis=1)
+        cut = np.flatnonzero(first > 0)
+        upper.low[cut], upper.inner_low[cut] = D[cut, 1 + first[cut]], True
+        upper = upper.take(more.any(axis=1))
     parts = Intervals.joined([intervals.take(~inside), lower, upper])
     return parts.take(parts.width > nearest)
 
