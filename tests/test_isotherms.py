@@ -5,7 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.dma import master_curve, read_isotherms
-from hystrip.dma.plausibility import worst_repeat
+from hystrip.dma.isotherms import repeats_differ
 
 SHIFT = hystrip.WLF(8.86, 101.6, 293.15)
 TIMES = np.geomspace(1e-9, 100, 23)
@@ -98,5 +98,4 @@ def test_reference_of_the_command_is_the_one_asked_for(run, tmp_path):
 
 def test_frequencies_close_together_are_several(tmp_path):
     found = read(tmp_path, [row(T, f) for T in (20, 26) for f in np.geomspace(1, 100, 1500)])
-    assert [each.omega.size for each in found] == [1500, 1500]
-    assert [worst_repeat(each.omega, each.storage, each.loss)[0] for each in found] == [0, 0]
+    assert [each.omega.size for each in found] == [1500, 1500] and max(map(repeats_differ, found)) < 0.01

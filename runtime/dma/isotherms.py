@@ -61,6 +61,13 @@ def grouped(readings: Readings) -> list[np.ndarray]:
     return _by_set(readings) if readings.set is not None else _by_temperature(readings)
 
 
+def repeats_differ(isotherm: DynamicModulus) -> float:
+    """By how much moduli measured twice at one frequency of an isotherm differ at most, relative; 0 where none was."""
+    starts = _different(np.log10(isotherm.omega))
+    ratios = [np.maximum.reduceat(each, starts) / np.minimum.reduceat(each, starts) for each in (isotherm.storage, isotherm.loss)]
+    return float(np.max(ratios)) - 1
+
+
 def _by_set(readings: Readings) -> list[np.ndarray]:
     groups = readings.sets()
     for name, rows in groups.items():

@@ -9,8 +9,9 @@ import numpy as np
 from ..errors import InputError
 from ..inputs.checks import choice, number, truth
 from ..inputs.shift import R_GAS, WLF, Arrhenius
+from .isotherms import repeats_differ
 from .modulus import DynamicModulus
-from .plausibility import POOR_REPEAT, worst_repeat
+from .plausibility import POOR_REPEAT
 from .readings import celsius, degrees
 from .superposition import Superposition, apart, superpose
 
@@ -154,7 +155,7 @@ def _remarks(isotherms: list[DynamicModulus], found: Superposition, off: np.ndar
         lower, upper = (celsius(each.temperature) for each in isotherms[i : i + 2])
         said.append(f"{lower} and {upper} share {shared:.1f} decades: the shift between them rests on little")
     for each in isotherms:
-        if (differ := worst_repeat(each.omega, each.storage, each.loss)[0]) > POOR_REPEAT:
+        if (differ := repeats_differ(each)) > POOR_REPEAT:
             percent = f"{100 * differ:.2g} %"
             said.append(f"at {celsius(each.temperature)} moduli measured twice differ by up to {percent} (Set keeps them apart)")
     return tuple(said)

@@ -37,23 +37,18 @@ def remark_on_temperatures(where: str, column: Column, kelvin: np.ndarray) -> No
     _remark(where, column, kelvin, COLDEST, HOTTEST, "K", usual, "another unit, or degrees and kelvin in one column?")
 
 
-def worst_repeat(omega: np.ndarray, storage: np.ndarray, loss: np.ndarray) -> tuple[float, np.ndarray]:
-    """By how much moduli measured at one frequency differ at most in size, relative, 0 where none was repeated; and the indices
-    of the rows there."""
-    order = np.argsort(omega, kind="stable")
-    size, starts = np.hypot(storage, loss)[order], np.flatnonzero(np.diff(omega[order], prepend=0.0) > _SAME * omega[order])
-    differ = np.maximum.reduceat(size, starts) / np.minimum.reduceat(size, starts) - 1
-    worst = int(np.argmax(differ))
-    return float(differ[worst]), np.split(order, starts[1:])[worst]
-
-
 def remark_on_repeats(readings: Readings, isotherms: Sequence[np.ndarray]) -> None:
     """Warn of rows at one frequency of an isotherm, given by its rows' indices, whose moduli differ, with what else does."""
-    found = [(rows, *worst_repeat(readings.omega[rows], readings.storage[rows], readings.loss[rows])) for rows in isotherms]
-    rows, worst, here = max(found, key=lambda each: each[1])
-    if worst <= POOR_REPEAT:
+    worst, pooled = POOR_REPEAT, None
+    for rows in isotherms:
+        rows = rows[np.argsort(readings.omega[rows], kind="stable")]
+        omega, size = readings.omega[rows], np.hypot(readings.storage[rows], readings.loss[rows])
+        starts = np.flatnonzero(np.append(True, omega[1:] > omega[:-1] * (1 + _SAME)))
+        differ = np.maximum.reduceat(size, starts) / np.minimum.reduceat(size, starts) - 1
+        if differ.max() > worst:
+            worst, pooled = differ.max(), np.split(rows, starts[1:])[int(np.argmax(differ))]
+    if pooled is None:
         return
-    pooled = rows[here]
     differing = [name for name, cells in readings.ignored.items() if len(set(cells[pooled])) > 1]
     others = f"; ignored columns that differ there: {', '.join(map(repr, differing[:8]))}" if differing else ""
     f = readings.omega[pooled[0]] / (2 * np.pi)
