@@ -37,8 +37,7 @@ def trace(
     """
     columns = replace(columns)  # what is spent on this curve alone is counted
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
-    if columns.branch == "loading" and columns.adhesion.p_0 > 0:
-        intervals = _without_hidden(columns, intervals)
+    intervals = without_hidden(columns, intervals, atol[:, 0])
     looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
         # where strips let go one after another while the pressure rises it falls over penetration, which is no part of a law
@@ -91,31 +90,32 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
     return intervals, crest
 
 
-def _without_hidden(columns: LevelBatch, intervals: Intervals) -> Intervals:
-    """The intervals ending where gaps that adhere throughout open, if they end little above: with short memory all strips let go
-    there at once and the pressure falls. Above that an interval of its own, from where loading may not have met more before."""
+def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) -> Intervals:
+    """The intervals, but for what loading has met before where gaps that adhere throughout open, if they end little above: with
+    short memory all strips let go there at once and the pressure falls. It is known to ``atol``, Pa (n,), for each column."""
     K, h = columns.material.K, columns.level.h
     # nearer to a threshold than that rounding decides strip by strip
     opens, nearest = h + columns.opens, 64 * EPS * (h - columns.opens)
-    inside = (intervals.low < opens) & (opens < intervals.high) & (intervals.high - opens < _SHORT * h)
+    above, inside = intervals.high - opens, (intervals.low < opens) & (columns.branch == "loading") & (columns.adhesion.p_0 > 0)
+    # where all may err by more than it falls there nothing is looked for
+    inside &= (np.maximum(above, intervals.atol[:, 0] / K) < _SHORT * h) & (above > 0)
+    narrow = inside & (above <= np.maximum(nearest / _APART[0], atol[intervals.column] / K))
+    intervals = replace(intervals, high=np.where(narrow, opens, intervals.high), inner_high=intervals.inner_high & ~narrow)
+    inside &= ~narrow
     lower, upper = intervals.take(inside).split(np.full(np.count_nonzero(inside), opens), soft=False)
-    upper = upper.take(upper.width > np.maximum(nearest / _APART[0], upper.atol[:, 0] / K))
     if upper.size:
-        width = upper.width[:, None]
-        beside = np.minimum(np.maximum(upper.atol[:, :1] / K, nearest) / width, _APART[0])
+        beside = np.minimum(np.maximum(atol[upper.column] / K, nearest), _APART[0] * upper.width)
         # the pressure falls like a logarithm of the distance before it rises
-        near = beside * (_APART[0] / beside) ** np.linspace(0, 1, _NODES)
-        shares = np.concatenate((-beside, near, [np.linspace(*_APART, 2 * _NODES)[1:]] * upper.size), axis=1)
-        D, each = opens + shares * width, upper.take(np.repeat(np.arange(upper.size), shares.shape[1]))
+        steps = np.column_stack((-beside, np.geomspace(beside, _APART[1] * upper.width, 3 * _NODES, axis=1)))
+        D, each = opens + steps, upper.take(np.repeat(np.arange(upper.size), steps.shape[1]))
+        each.atol[:, 0] = atol[each.column]
         values, errors, _ = means_in(columns, each, D.ravel())
-        low, high = (each[:, 0].reshape(shares.shape) for each in (values - errors, values + errors))
+        low, high = (each[:, 0].reshape(D.shape) for each in (values - errors, values + errors))
         # it rises by K times the penetration at most; below zero, as the first strips cling, loading begins where it is least
-        most = high[:, 1:] + K * width * np.diff(shares[:, 1:], axis=1, append=1.0)
-        more = (most > low[:, :1]) | (low[:, :1] <= 0)
-        first = more.argmax(axis=1)
-        cut = np.flatnonzero(first > 0)
-        upper.low[cut], upper.inner_low[cut] = D[cut, 1 + first[cut]], True
-        upper = upper.take(more.any(axis=1))
+        more = (high[:, 1:] + K * np.diff(steps[:, 1:], axis=1, append=upper.width[:, None]) > low[:, :1]) | (low[:, :1] <= 0)
+        inside[inside] = cut = ~more[:, 0]
+        upper.low, upper.inner_low = D[np.arange(upper.size), 1 + more.argmax(axis=1)], cut
+        lower, upper = lower.take(cut), upper.take(cut & more.any(axis=1))
     parts = Intervals.joined([intervals.take(~inside), lower, upper])
     return parts.take(parts.width > nearest)
 

@@ -12,6 +12,7 @@ from ..orbit.batch import Batch
 from .averages import Averages, level_means
 from .branches import branches_of
 from .breaks import between_breaks, first_contact
+from .curve import without_hidden
 from .interpolation import Intervals, interpolate
 from .nonadhesive.law import penetrations
 from .strips import AT_JUMP, CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_penetration
@@ -101,7 +102,7 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     goal = np.maximum(_ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
     walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]
     while left.size:
-        _go_along(columns, [walks[i] for i in left])
+        _go_along(columns, [walks[i] for i in left], _CLOSEST * size)
         nowhere = Root(np.nan, 0.0, np.zeros(q))
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or nowhere for i in left), strict=True)))
         found = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
@@ -115,8 +116,8 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     return out
 
 
-def _go_along(columns: LevelBatch, walks: list[Walk]) -> None:
-    """All walks together, part by part, to where their curves first pass their pressures."""
+def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> None:
+    """All walks together, part by part, to where their curves first pass their pressures, at last known to ``finest``, Pa."""
     bottom = first_contact(columns)
     while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
         if fresh := [walk for walk in going if walk.now is None]:
@@ -130,7 +131,7 @@ def _go_along(columns: LevelBatch, walks: list[Walk]) -> None:
         column, goal = np.repeat([(walk.column, walk.goal) for walk in going], [walk.now.shape[1] for walk in going], axis=0).T
         atol = np.column_stack((goal, np.full((low.size, columns.scales.size - 1), LARGEST)))
         intervals = Intervals(low, high, column.astype(int), *(v > 0 for v in inner), 0 * low, atol, np.full(low.size, np.inf))
-        pieces = interpolate(columns, intervals, first=_FIRST)
+        pieces = interpolate(columns, without_hidden(columns, intervals, finest), first=_FIRST)
         known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], columns.branch == "unloading")
         for walk, row in zip(going, known, strict=True):
             walk.go_on(pieces[walk.column], row, bool(columns.spent[walk.column] > CURVE_LIMIT))

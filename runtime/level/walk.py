@@ -75,9 +75,8 @@ class Walk:
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
         if not (least == most or whole):
             if self.goal > self.finest and not exhausted:
-                again = [self._comes_to(piece) for piece in self.known]
+                self._ask_again([self._comes_to(piece) for piece in self.known])
                 self.goal = max(_FINER * self.goal, self.finest)
-                self._ask_again(again)
                 return
             # two branches that overlap by less than they are known to may be one
             if not (inside and all(a.inner_high and b.inner_low for a, b in joints)):
