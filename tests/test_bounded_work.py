@@ -171,6 +171,17 @@ def test_a_surface_whose_valleys_are_just_released_is_like_one_next_to_it(T_sigm
 
 
 @pytest.mark.filterwarnings("error")
+def test_a_pressure_is_known_as_well_as_fractions_that_are_steep_over_it_ask_for():
+    """Just below where gaps stop to open strips that adhere change over within 1e-4 of the pressure."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=4.3834e-7)
+    adhesion, level = hystrip.Dugdale(gamma=5.62994e-11, delta_0=1.96736e-9), hystrip.Level(7.70007e-6, 8.37315e-8)
+    at = {"V": 7.75746e-7, "D": (level.h - adhesion.delta_0 - adhesion.p_0 / material.K) * (1 - 1e-6), "branch": "loading"}
+    exact = hystrip.solve_level(material, adhesion, level, **at)
+    found = hystrip.solve_level(material, adhesion, level, **at | {"D": None, "pressure": exact.p_mean}, rtol=1e-6)
+    assert found.converged and abs(found.adhesion_fraction - exact.adhesion_fraction) <= 1e-6 * (exact.adhesion_fraction + 1e-3)
+
+
+@pytest.mark.filterwarnings("error")
 def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
     """With a short memory all strips of the smallest level let go at one height of the valley, within 3e-16 m of D."""
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.00205486)
@@ -202,15 +213,17 @@ def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
     assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1] + 1e-6 * law.tau_sat).all()
 
 
+#: levels with a short memory: T_sigma, gamma, delta_0, l, h, V, edge
+SHORT_MEMORY = [
+    (1.1991e-7, 1.74732e-9, 2.40596e-9, 2.03999e-6, 8.10676e-8, 4.05772e-6, "continuous"),
+    (1.01e-7, 1.036e-9, 1.833e-9, 8.036e-6, 9.099e-8, 1.437e-5, "continuous"),
+    (5.265e-6, 1.047e-9, 9.526e-9, 9.745e-7, 3.381e-8, 4.152e-6, "constitutive"),
+    (1.312e-3, 1.918e-8, 3.583e-9, 1.572e-5, 6.393e-7, 1.118e-5, "constitutive"),
+]
+
+
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize(
-    ("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge"),
-    [
-        (1.1991e-7, 1.74732e-9, 2.40596e-9, 2.03999e-6, 8.10676e-8, 4.05772e-6, "continuous"),
-        (1.01e-7, 1.036e-9, 1.833e-9, 8.036e-6, 9.099e-8, 1.437e-5, "continuous"),
-        (5.265e-6, 1.047e-9, 9.526e-9, 9.745e-7, 3.381e-8, 4.152e-6, "constitutive"),
-    ],
-)
+@pytest.mark.parametrize(("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge"), SHORT_MEMORY[:3])
 def test_what_loading_has_met_before_is_no_part_of_its_law(T_sigma, gamma, delta_0, l, h, V, edge):  # noqa: E741
     """Where gaps stop to open the pressure falls like the logarithm of the distance, then rises to what it was and beyond: of all
     between, down to 1e-15 of ``h``, nothing is looked at closely. The law is that of single pressures on both sides of it."""
@@ -223,6 +236,23 @@ def test_what_loading_has_met_before_is_no_part_of_its_law(T_sigma, gamma, delta
     p = np.append(np.array([0.98, 1.01]) * met, 0.95 * law.p_sat)
     each = hystrip.solve_level(material, adhesion, level, pressure=p, rtol=1e-6, **how)
     assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1] + 1e-6 * law.tau_sat).all()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("away", [-1e-6, 1e-6])
+@pytest.mark.parametrize(("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge"), SHORT_MEMORY)
+def test_a_pressure_is_not_looked_for_in_what_loading_has_met_before(T_sigma, gamma, delta_0, l, h, V, edge, away):  # noqa: E741
+    """Next to the pressure at which gaps stop to open: the curve just above that is not looked at closely."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    level, how = hystrip.Level(l, h), {"V": V, "edge": edge, "branch": "loading", "rtol": 1e-6}
+    opens = h - delta_0 - adhesion.p_0 / material.K
+    met = hystrip.solve_level(material, adhesion, level, D=opens * (1 - 1e-9), **how).p_mean
+    found = hystrip.solve_level(material, adhesion, level, pressure=met * (1 + away), **how)
+    assert found.converged and found.strips < 12_000
+    before = np.minimum(found.D, opens) * (1 - np.append(0.0, np.geomspace(1e-8, 0.1, 20)))
+    there = hystrip.solve_level(material, adhesion, level, D=np.append(found.D, before), **how)
+    assert abs(there.p_mean[0] - found.p_mean) <= there.error_estimate[0, 0] + found.error_estimate[0]
+    assert (there.p_mean[1:] <= found.p_mean + there.error_estimate[0, 1:] + found.error_estimate[0]).all()
 
 
 @pytest.mark.filterwarnings("error")
