@@ -219,6 +219,7 @@ SHORT_MEMORY = [
     (1.01e-7, 1.036e-9, 1.833e-9, 8.036e-6, 9.099e-8, 1.437e-5, "continuous"),
     (5.265e-6, 1.047e-9, 9.526e-9, 9.745e-7, 3.381e-8, 4.152e-6, "constitutive"),
     (1.312e-3, 1.918e-8, 3.583e-9, 1.572e-5, 6.393e-7, 1.118e-5, "constitutive"),
+    (4.149e-3, 7.623e-9, 9.541e-9, 4.756e-7, 9.351e-8, 2.15e-6, "continuous"),
 ]
 
 
@@ -242,7 +243,8 @@ def test_what_loading_has_met_before_is_no_part_of_its_law(T_sigma, gamma, delta
 @pytest.mark.parametrize("away", [-1e-6, 1e-6])
 @pytest.mark.parametrize(("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge"), SHORT_MEMORY)
 def test_a_pressure_is_not_looked_for_in_what_loading_has_met_before(T_sigma, gamma, delta_0, l, h, V, edge, away):  # noqa: E741
-    """Next to the pressure at which gaps stop to open: the curve just above that is not looked at closely."""
+    """Next to the pressure at which gaps stop to open: the curve just above that is not looked at closely, and a crossing
+    just below it is not passed by."""
     material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
     level, how = hystrip.Level(l, h), {"V": V, "edge": edge, "branch": "loading", "rtol": 1e-6}
     opens = h - delta_0 - adhesion.p_0 / material.K
