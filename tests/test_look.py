@@ -1,23 +1,22 @@
-"""What a look at a few nodes of a curve leaves out: what loading passes by before the least pressure."""
+"""What a look at a few nodes of a curve leaves out: what loading passes by before the least pressure, and unloading above it."""
 
 import numpy as np
 import pytest
 
 import hystrip
 from hystrip.level.interpolation import Intervals
-from hystrip.level.look import BENDS, before_least, between_nodes
+from hystrip.level.look import BENDS, before_least, between_nodes, unloading_meets
 from hystrip.numerics.quadrature import Stage, interior_nodes
 
-NODES = interior_nodes(6)
 
-
-def _looked(curve, *ends, column=0, error=0.0):
+def _looked(curve, *ends, column=0, error=0.0, rough=False, n=6):
     """The intervals between the ``ends``, with the pressure ``curve(D)`` at their nodes; and those with their ends."""
     low, high = np.array(ends[:-1], float), np.array(ends[1:], float)
     intervals = Intervals.of(np.full(low.size, column), low, high, np.zeros(column + 1), np.zeros((column + 1, 1)))
-    at = intervals.at(NODES)
+    intervals.rough[:] = rough
+    at = intervals.at(interior_nodes(n))
     values = curve(at)[:, :, None]
-    return Stage(intervals, 6, (values, np.full(values.shape, error))), np.column_stack((low, at, high))
+    return Stage(intervals, n, (values, np.full(values.shape, error))), np.column_stack((low, at, high))
 
 
 def test_a_straight_curve_is_known_on_to_its_ends():
@@ -42,6 +41,72 @@ def test_between_nodes_a_curve_keeps_within_its_bounds(curve):
         pairs = np.stack((ends[1:-2], ends[2:-1]))
         assert (inside.min(axis=1) >= pairs.min(axis=0) - slack[1:-1]).all()
         assert (inside.max(axis=1) <= pairs.max(axis=0) + slack[1:-1]).all()
+
+
+def _met(curve, *ends, n=6, **of):
+    """From where to where unloading may come to pressures in each of the intervals between the ``ends``: None, or both."""
+    stage, D = _looked(curve, *ends, n=n, **of)
+    meets, _ = unloading_meets(stage, D, BENDS[n > 6])
+    return [(row[:-1][some].min(), row[1:][some].max()) if some.any() else None for row, some in zip(D, meets, strict=True)]
+
+
+def test_unloading_comes_to_all_of_a_curve_that_rises():
+    assert _met(lambda D: D, 0, 0.5, 2) == [(0, 0.5), (0.5, 2)]
+    stage, D = _looked(lambda D: D, 0, 0.5, 2)
+    _, ceiling = unloading_meets(stage, D, BENDS[0])
+    assert ceiling[1] == np.inf and ceiling[0] == pytest.approx(0.5, abs=2e-3) and ceiling[0] >= 0.5
+
+
+def test_unloading_comes_to_nothing_above_the_least_pressure_before():
+    """Pressed in from 1 on; drawn out of it the pressure is 2.3 higher: only below -1.3 it comes to what it was not yet at."""
+    curve = lambda D: np.where(D > 1, D - 1, D + 1.3)  # noqa: E731
+    low, high = _met(curve, -3, 1, 2)[0]
+    assert low == -3 and -1.3 < high < 0
+    assert _met(curve, -1.1, 1, 2)[0] is None
+
+
+def test_errors_leave_open_whether_it_comes_to_it():
+    curve = lambda D: np.where(D > 1, D, 0.02 + 0.1 * D)  # noqa: E731
+    curve_above = lambda D: np.where(D > 1, D - 1, 0.02 + 0.1 * D)  # noqa: E731
+    assert _met(curve, 0, 1, 2)[0] == (0, 1)
+    assert _met(curve_above, 0, 1, 2)[0] is None and _met(curve_above, 0, 1, 2, error=0.02)[0] is not None
+
+
+@pytest.mark.parametrize("n", [6, 12])
+@pytest.mark.parametrize("rough", [False, [True, False]])
+def test_what_rises_from_a_break_is_not_followed(rough, n):
+    """Drawn out from 0, where it is least, the pressure rises all along."""
+    assert _met(lambda D: np.where(D > 0, D, -2 * D), -1, 0, 1, rough=rough, n=n)[0] is None
+
+
+def test_what_rises_from_a_break_at_once_is_not_followed():
+    """Like a logarithm, as with short memory all strips let go: what is next to the break is all but as low as that."""
+    curve = lambda D: np.where(D > 0, D, 1e-3 * np.log1p(-100 * np.minimum(D, 0.0)))  # noqa: E731
+    assert _met(curve, -1, 0, 1, n=12, error=1e-6)[0] is None
+
+
+@pytest.mark.parametrize("falls", [0.2, 1.0, 5.0])
+@pytest.mark.parametrize("rises", [0.5, 1.0, 5.0])
+@pytest.mark.parametrize("rough", [False, [True, True, False]])
+def test_a_least_pressure_at_a_break_is_not_passed_over(falls, rises, rough):
+    """A curve that is least at the break between two intervals, and only next to it below the least pressure before."""
+
+    def curve(D):
+        return np.where(D > 2, D - 2, np.where(D > 1, rises * (D - 1), falls * (1 - D)) - 0.005 * rises)
+
+    low, high = _met(curve, 0, 1, 2, 3, rough=rough)[1]
+    assert low <= 1 and high >= 1.005
+
+
+def test_columns_have_nothing_to_do_with_each_other():
+    stages = [_looked(np.square, -1, 0, 1, column=k, error=0.0) for k in (0, 1)]
+    both = Stage(
+        Intervals.joined([s.parts for s, _ in stages]),
+        6,
+        tuple(np.concatenate(v) for v in zip(*(s.known for s, _ in stages), strict=True)),
+    )
+    meets, ceiling = unloading_meets(both, np.concatenate([D for _, D in stages]), BENDS[0])
+    assert (meets[:2] == meets[2:]).all() and (ceiling[:2] == ceiling[2:]).all()
 
 
 def test_loading_passes_by_what_comes_before_the_least_pressure():

@@ -1,13 +1,9 @@
 """Pull-off of a level whose crest lets go first: with adhesion and V > 0 the flat rims of the cells hold on longer."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level import curve
-from hystrip.level.interpolation import Intervals
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -44,7 +40,7 @@ def test_a_law_that_is_asked_for_nothing_it_carries_knows_its_pull_off():
 def test_a_law_does_not_go_on_within_a_jump_of_its_curve():
     """Strips let go of the valley at once at V = 2 mm/s: the pressure falls from -1011.8 to -1016.85 Pa within 1e-17 m."""
     solid = hystrip.StandardLinearSolid(1.0233668770254136e9, 2.7566273099692666e-3, 2.7566273099692668e-5)
-    level, at = hystrip.Level(l=1e-5, h=1e-6), {"V": 2e-3, "rtol": 1e-2}
+    level, at = hystrip.Level(l=1e-5, h=1e-6), {"V": 2e-3, "rtol": 1e-3}
     law = hystrip.friction_law(solid, ADHESION, level, below=-1000.0, **at)
     assert law.converged and law.pull_off == pytest.approx(-1016.853, abs=0.002)
     p = np.array([-1017.3, -1016.9, -1016.8])
@@ -127,22 +123,6 @@ def test_loading_at_next_to_no_pressure_stands_beyond_the_dip(i):
     assert before.p_mean.min() < 0 and (before.p_mean < p).all()
     at = hystrip.solve_level(material, adhesion, level, V=V, D=float(found.penetration), branch="loading", rtol=1e-6)
     assert at.p_mean == pytest.approx(p, rel=1e-2)
-
-
-@pytest.mark.parametrize("falls", [0.2, 1.0, 5.0])
-@pytest.mark.parametrize("rises", [0.5, 1.0, 5.0])
-def test_a_least_pressure_at_a_break_is_not_passed_over(falls, rises, monkeypatch):
-    """A curve that is least at the break between two intervals, and only next to it below the least pressure before."""
-
-    def means(columns, intervals, D):
-        values = np.where(D > 1, rises * (D - 1), falls * (1 - D))[:, None] - 0.005 * rises
-        return values, np.zeros(values.shape), np.zeros(D.size, object)
-
-    monkeypatch.setattr(curve, "_rough_means", means)
-    breaks = np.array([0.0, 1.0, 2.0])
-    whole = Intervals.of(np.zeros(2, int), breaks[:-1], breaks[1:], np.full(1, 1e-3), np.full((1, 1), 1e-3))
-    parts = curve.reentrant_parts(None, replace(whole, ceiling=np.zeros(2)), None)
-    assert ((parts.low <= 1) & (parts.high >= 1.005)).any()
 
 
 @pytest.mark.parametrize("level", [LEVEL, hystrip.Level(l=1e-5, h=1e-6)])

@@ -198,10 +198,10 @@ MUTANTS = (
     ),
     Mutant(
         "a curve ends at a break below which it goes on for a short way",
-        "level/curve.py",
-        "< tops.ceiling",
-        "< -np.inf",
-        "test_pull_off.py",
+        "level/look.py",
+        "(lowest > ceiling)[:, None]",
+        "(lowest > -np.inf)[:, None]",
+        "test_look.py",
     ),
     Mutant(
         "a tenth of a law's error in what it carries",

@@ -15,15 +15,16 @@ from .averages import level_means
 from .branches import Errors, Piece, share_of
 from .breaks import Islands, islands, locate_vanishing
 from .error_budget import ErrorBudget
-from .look import before_least
+from .look import BENDS, before_least, unloading_meets
 from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
 #: pressures in an interval are known at least this well, of their range, unless all in it may err by more
 _COARSEST = 1e-3
-#: nodes of an interval, and one more: those that tell what pressures it comes to, the first, and the last before it is divided
-_LOOK, _FIRST, _LAST = 6, 12, 96
+#: nodes of an interval, and one more: those that tell what pressures it comes to, the first, and the last before it is divided;
+#: accuracy of a look at a rough one
+_LOOK, _FIRST, _LAST, _ROUGH = 6, 12, 96, 5e-3
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
 #: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it
@@ -38,7 +39,7 @@ class Intervals(Ranges):
     """Intervals of D of columns; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end; all (m,).
 
     Quantities in them may err by ``rtol`` (m,) times the least that they are in an interval, and ``atol`` (m, q). Pressures above
-    the ``ceiling`` (m,), Pa, count for nothing.
+    the ``ceiling`` (m,), Pa, count for nothing. ``rough``: unloading may come to some of it, or to nothing; a look tells.
     """
 
     column: np.ndarray
@@ -47,12 +48,14 @@ class Intervals(Ranges):
     rtol: np.ndarray
     atol: np.ndarray
     ceiling: np.ndarray
+    rough: np.ndarray
 
     @classmethod
     def of(cls, column, low, high, rtol, atol) -> Intervals:
         """Intervals between breaks of the columns ``column`` (m,), as accurate as these, ``rtol`` (n,) and ``atol`` (n, q)."""
-        inner = np.zeros((2, column.size), bool)
-        return cls(low, high, column, *inner, rtol[column], atol[column], np.full(column.size, np.inf))
+        inner_low, inner_high, rough = np.zeros((3, column.size), bool)
+        ceiling = np.full(column.size, np.inf)
+        return cls(low, high, column, inner_low, inner_high, rtol[column], atol[column], ceiling, rough)
 
     def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
         """The parts below and above D of each; the curve goes on smoothly there, or not."""
@@ -67,13 +70,15 @@ class Intervals(Ranges):
     def at(self, t: np.ndarray) -> np.ndarray:
         """Penetrations at the parameters ``t`` (nodes,) of each, (m, nodes)."""
         shares = np.array([share_of(t, low, high) for low in (False, True) for high in (False, True)])
-        return self.low[:, None] + self.width[:, None] * shares[2 * self.inner_low + self.inner_high]
+        kind = np.where(self.rough, 3, 2 * self.inner_low + self.inner_high)
+        return self.low[:, None] + self.width[:, None] * shares[kind]
 
 
 def means_in(columns: LevelBatch, intervals: Intervals, D: np.ndarray) -> tuple:
     """Means (m, q), their errors (m, q) and the zones met (m,) at penetrations ``D`` (m,) in the ``intervals`` (m,), to a share
     of what these may err."""
-    means = level_means(columns.at(intervals.column, D), MEAN * intervals.rtol, MEAN * intervals.atol)
+    share = MEAN * np.divide(_ROUGH, intervals.rtol, out=np.ones(D.size), where=intervals.rough)
+    means = level_means(columns.at(intervals.column, D), share * intervals.rtol, share[:, None] * intervals.atol)
     np.add.at(columns.spent, intervals.column, means.strips)
     return means.values, means.errors, np.array([*means.zones, None], object)[:-1]
 
@@ -98,13 +103,12 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
 
 
 def interpolate(
-    columns: LevelBatch, intervals: Intervals, budget: ErrorBudget | None = None, first: int = _FIRST
+    columns: LevelBatch, intervals: Intervals, budget: ErrorBudget | None = None, first: int = 0
 ) -> list[list[Piece]]:
-    """Pieces of each column that interpolate the means over the intervals, on at least ``first`` nodes. ``budget``:
-    how much the pressures of an interval count."""
-    work = _Work(columns, budget, first, [[] for _ in range(columns.size)])
-    # a budget has to know what pressures an interval comes to before it says how well they have to be known
-    stages = [Stage(intervals, first if budget is None else _LOOK)] if intervals.size else []
+    """Pieces of each column that interpolate the means over the intervals, on at least ``first`` nodes; or, without, of all that
+    its branch comes to there. ``budget``: how much the pressures of an interval count."""
+    work = _Work(columns, budget, first or _FIRST, [[] for _ in range(columns.size)])
+    stages = [Stage(intervals, first or _LOOK)] if intervals.size else []
     while stages:
         stages = work.refine(stages)
     return work.pieces
@@ -121,20 +125,49 @@ class _Work:
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
-        going, divided = [], []
-        for stage in sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D)):
-            if stage.n > _LOOK:
-                left, goal, hopeless = self._converged(stage)
-                divided.append((left.take(hopeless), goal[hopeless]))
-                going.append(left.take(~hopeless))
-            else:
-                if self.columns.branch == "loading":
-                    ends = stage.parts.low, stage.parts.at(interior_nodes(stage.n)), stage.parts.high
-                    stage = stage.take(~before_least(stage, np.column_stack(ends)))
-                going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0])))
-        parts = [part for stage, goal in divided for part in self._divided(stage, goal)]
-        fresh = [Stage(Intervals.joined(parts), self.first)] if parts else []
-        return [stage for stage in (*going, *fresh) if stage.parts.size]
+        going, divided, fresh = [], [], []
+        answers = sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D))
+        for before, stage in zip(stages, answers, strict=True):
+            if stage.n == _LOOK:
+                going.append(self._looked(stage))
+                continue
+            if before.n == _LOOK and self.columns.branch == "unloading":
+                stage, parts = self._met(stage)
+                fresh.append(parts)
+            left, goal, hopeless = self._converged(stage)
+            divided.append((left.take(hopeless), goal[hopeless]))
+            going.append(left.take(~hopeless))
+        fresh += [part for stage, goal in divided for part in self._divided(stage, goal)]
+        if fresh:
+            going.append(Stage(Intervals.joined(fresh), self.first))
+        return [stage for stage in going if stage.parts.size]
+
+    def _looked(self, stage: Stage) -> Stage:
+        """What a branch may come to, of the first look; by now it is known what pressures an interval comes to, and so how well
+        they have to be known."""
+        if self.columns.branch == "loading":
+            stage = stage.take(~before_least(stage, _with_ends(stage)))
+        else:
+            stage = stage.take(unloading_meets(stage, _with_ends(stage), BENDS[0])[0].any(axis=1))
+        known = np.flatnonzero(~stage.parts.rough)
+        if self.budget is not None:
+            stage.parts[known] = weighed(self.columns, self.budget, stage.parts.take(known), stage.known[0][known])
+        return stage
+
+    def _met(self, stage: Stage) -> tuple[Stage, Intervals]:
+        """What unloading may come to, of the second look; and the parts of rough intervals, as coarse as the budget allows."""
+        D, values = _with_ends(stage), stage.known[0]
+        meets, ceiling = unloading_meets(stage, D, BENDS[1])
+        rest = stage.take(meets.any(axis=1) & ~stage.parts.rough)
+        change = np.diff((meets & stage.parts.rough[:, None]).astype(int), axis=1, prepend=0, append=0)
+        (row, first), last = np.nonzero(change > 0), np.nonzero(change < 0)[1]
+        parts = replace(stage.parts.take(row), low=D[row, first], high=D[row, last], ceiling=ceiling[row], rough=row < 0)
+        parts.inner_low |= first > 0
+        parts.inner_high |= last < D.shape[1] - 1
+        if self.budget is not None:
+            near = [values[k, max(i - 1, 0) : max(j, 2)] for k, i, j in zip(row, first, last, strict=True)]
+            parts = weighed(self.columns, self.budget, parts, near)
+        return rest, parts
 
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:
         """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
@@ -182,6 +215,11 @@ class _Work:
                     parts.append(lower)
             parts.append(rest if len(parts) > before else rest.halves)
         return parts
+
+
+def _with_ends(stage: Stage) -> np.ndarray:
+    """Penetrations at the nodes and both ends of the intervals of a stage, (m, n + 1)."""
+    return np.column_stack((stage.parts.low, stage.parts.at(interior_nodes(stage.n)), stage.parts.high))
 
 
 def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:

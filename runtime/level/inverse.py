@@ -130,7 +130,8 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> Non
         low, high, *inner = np.concatenate([walk.now for walk in going], axis=1)
         column, goal = np.repeat([(walk.column, walk.goal) for walk in going], [walk.now.shape[1] for walk in going], axis=0).T
         atol = np.column_stack((goal, np.full((low.size, columns.scales.size - 1), LARGEST)))
-        intervals = Intervals(low, high, column.astype(int), *(v > 0 for v in inner), 0 * low, atol, np.full(low.size, np.inf))
+        ends, rough = [v > 0 for v in inner], np.zeros(low.size, bool)
+        intervals = Intervals(low, high, column.astype(int), *ends, 0 * low, atol, np.full(low.size, np.inf), rough)
         pieces = interpolate(columns, without_hidden(columns, intervals, finest), first=_FIRST)
         known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], columns.branch == "unloading")
         for walk, row in zip(going, known, strict=True):
