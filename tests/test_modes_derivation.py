@@ -185,10 +185,9 @@ class Still(Altered):
 
 
 def test_derivatives_that_leave_something_out_are_found_out() -> None:
-    worst = {
-        each.name: each.worst
-        for each in measure_regimes(of("generalised").composed, of("generalised").kernels, Still(), (2,), points=6)
-    }
+    made = of("generalised")
+    regimes = [regime for regime in made.composed if regime.sequence == "ac"]
+    worst = {each.name: each.worst for each in measure_regimes(regimes, made.kernels, Still(), (2,), points=6)}
     assert worst["residual_and_jacobian_ac"] > 1e6 and worst["return_map_ac"] > 1e6
     assert all(each <= AIM for name, each in worst.items() if name not in ("residual_and_jacobian_ac", "return_map_ac"))
 
@@ -267,7 +266,7 @@ def test_two_equal_times_of_one_operator_are_a_solid_though_roundings_make_them_
     """Half of them were refused by the solver, and at regeneration."""
     draw = random.Random(6)
     for count in (2, 3, 4):
-        for _ in range(20):
+        for _ in range(8):
             K, first = 10 ** draw.uniform(3, 10), 10 ** draw.uniform(-6, 0)
             later = [first * 10 ** (i + draw.uniform(0.1, 0.9)) for i in range(2 * count - 3)]
             w_times, p_times = [first, *later[0::2]], [first, first, *later[1::2]]
@@ -285,7 +284,7 @@ def test_two_equal_times_of_one_operator_are_a_solid_though_roundings_make_them_
 def test_operators_whose_times_are_equal_but_for_roundings_are_a_solid() -> None:
     """Half of them were refused at regeneration as not passive, while the solver takes the same numbers."""
     draw = random.Random(5)
-    for _ in range(40):
+    for _ in range(16):
         K, *times = (10 ** draw.uniform(low, high) for low, high in ((3, 10), (-4, 2), (-4, 2), (-4, 2)))
         slow, lag = sorted(times[1:])
         for of_w, of_p in (((times[0],), (times[0],)), (times[:2], times[:2]), ((times[0], lag), (times[0], slow))):
@@ -381,7 +380,9 @@ MODEL = prony_model("my_rubber")
 
 
 def test_a_model_file_becomes_a_solver_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(certify, "COUNTS", (1,))  # how accurate it is with more is measured for the solver that ships
+    monkeypatch.setattr(certify, "COUNTS", (1,))  # how accurate it is, with more, is measured for the solver that ships
+    for each in (measure, measure_material, measure_regimes):
+        monkeypatch.setattr(certify, each.__name__, functools.partial(each, points=1))
     file = tmp_path / "my_model.py"
     file.write_text(FILE, encoding="utf-8")
     seen: list[tuple[int, int]] = []
