@@ -12,6 +12,15 @@ from hystrip.commands import entry
 os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
 
+#: modules with single tests of several seconds that stand late in the alphabet
+LONG = ("test_sweep", "test_types")
+
+
+def pytest_collection_modifyitems(items):
+    """Long tests first: at the end of a run one worker would be at them, and the others have nothing left."""
+    items.sort(key=lambda item: item.path.stem not in LONG)
+
+
 @pytest.fixture
 def run(monkeypatch, tmp_path, capsys):
     """Run a command line in an empty folder; gives (status, standard output, standard error)."""

@@ -5,6 +5,8 @@ Loading passes them at the end of its way, where contact is all but complete and
 less than a curve is known to.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -28,15 +30,21 @@ def scene(seed):
     return material, adhesion, 1e-5 / (2 * np.pi * 1e-2) * 10 ** rng.uniform(-4, 1), edge
 
 
+@cache
+def saturating(seed):
+    """Pressures from which contact is complete, of both branches."""
+    material, adhesion, V, edge = scene(seed)
+    given = {"pressure": 1.0, "velocity": V, "edge": edge}
+    return [float(hystrip.solve(material, adhesion, LEVEL, branch=b, **given).p_sat) for b in ("loading", "unloading")]
+
+
+@pytest.mark.xdist_group("saturating")  # which are solved once
 @pytest.mark.parametrize("branch", ["loading", "unloading"])
 @pytest.mark.parametrize("seed", range(6))
 def test_a_pressure_that_pushes_is_carried(seed, branch):
     material, adhesion, V, edge = scene(seed)
     given = {"velocity": V, "edge": edge}
-    ends = [
-        float(hystrip.solve(material, adhesion, LEVEL, pressure=1.0, branch=b, **given).p_sat) for b in ("loading", "unloading")
-    ]
-    p = np.sort(np.outer([end for end in ends if end > 0], 1 + SHARES).ravel())
+    p = np.sort(np.outer([end for end in saturating(seed) if end > 0], 1 + SHARES).ravel())
     rough, fine = (hystrip.solve(material, adhesion, LEVEL, pressure=p, branch=branch, rtol=r, **given) for r in (1e-3, 1e-5))
     assert not (rough.pulled_off | fine.pulled_off).any() and rough.converged.all()
     assert (np.abs(rough.tau - fine.tau) <= rough.tau_error + fine.tau_error).all()

@@ -32,9 +32,12 @@ def main(arguments):
     exe = _environment.python("test", ["test"])
     for library in ("OMP", "OPENBLAS"):
         os.environ.setdefault(library + "_NUM_THREADS", "1")  # there is a worker on every core
+    # pytest compiles all of a plugin's package anew, in every worker, for the sake of its assertions: no other than is needed
+    os.environ["PYTEST_DISABLE_PLUGIN_AUTOLOAD"] = "1"
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
-        status = _environment.run(exe, "-m", "pytest", *spread(arguments), "--junitxml=" + report, *arguments)
+        options = ["-p", "xdist.plugin", *spread(arguments), "--junitxml=" + report]
+        status = _environment.run(exe, "-m", "pytest", *options, *arguments)
         if status == 0 and not executed(report):
             sys.stderr.write("no test ran\n")
             return 5
