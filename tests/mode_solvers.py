@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from types import ModuleType
 
 import numpy as np
@@ -67,3 +68,7 @@ class Orbits:
             np.abs(tau_mean - self.tau_mean) / (1 + np.abs(self.tau_mean)),
         ]
         return float(np.max(far))
+
+
+#: the same orbits are held against many materials
+orbits_of = cache(Orbits)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-from mode_solvers import Orbits
+from mode_solvers import orbits_of
 
 import hystrip
 from hystrip.derivation.functions import flat
@@ -17,7 +17,7 @@ SHIPPED = (kelvin_voigt, generalised)
 
 @pytest.mark.parametrize("sequence", PARTIAL)
 def test_one_mode_is_the_standard_linear_solid(sequence: str) -> None:
-    orbits = Orbits(sequence)
+    orbits = orbits_of(sequence)
     assert len(orbits.rows) > 5
     K, found = generalised.material_modes(1.0, *orbits.branch)
     assert orbits.held(generalised, found) < 1e-12
@@ -25,7 +25,7 @@ def test_one_mode_is_the_standard_linear_solid(sequence: str) -> None:
 
 @pytest.mark.parametrize("sequence", PARTIAL)
 def test_two_equal_times_are_one(sequence: str) -> None:
-    orbits = Orbits(sequence)
+    orbits = orbits_of(sequence)
     K_1, tau_1 = orbits.branch
     _, found = generalised.material_modes(1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1)))
     assert orbits.held(generalised, found) < 1e-12
@@ -34,7 +34,7 @@ def test_two_equal_times_are_one(sequence: str) -> None:
 @pytest.mark.parametrize("sequence", PARTIAL)
 @pytest.mark.parametrize("apart", [1e-15, 1e-12, 1e-9])
 def test_two_nearly_equal_times_lose_nothing(sequence: str, apart: float) -> None:
-    orbits = Orbits(sequence)
+    orbits = orbits_of(sequence)
     K_1, tau_1 = orbits.branch
     _, found = generalised.material_modes(
         1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1 * (1 + apart)))
@@ -46,7 +46,7 @@ def test_two_nearly_equal_times_lose_nothing(sequence: str, apart: float) -> Non
 @pytest.mark.parametrize("modulus", [0.0, 1e-300, 1e-15])
 @pytest.mark.parametrize("slower", [1e-3, 0.8, 1e4])
 def test_a_branch_without_modulus_does_not_count(sequence: str, modulus: float, slower: float) -> None:
-    orbits = Orbits(sequence)
+    orbits = orbits_of(sequence)
     K_1, tau_1 = orbits.branch
     K_i, tau_i = np.concatenate((modulus * K_1, K_1)), np.concatenate((slower * tau_1, tau_1))
     _, found = generalised.material_modes(1.0, K_i, tau_i)
@@ -58,7 +58,7 @@ def test_a_branch_without_modulus_does_not_count(sequence: str, modulus: float, 
 
 @pytest.mark.parametrize("sequence", ["acaf", "af", "ac"])
 def test_a_vanishing_relaxation_time_is_kelvin_voigt(sequence: str) -> None:
-    orbits = Orbits(sequence, J=0.0)
+    orbits = orbits_of(sequence, J=0.0)
     assert len(orbits.rows) > 5
     _, found = kelvin_voigt.material_modes(1.0, orbits.beta / orbits.k)
     assert orbits.held(kelvin_voigt, found) < 1e-12
@@ -71,7 +71,7 @@ def test_a_vanishing_relaxation_time_is_kelvin_voigt(sequence: str) -> None:
 
 @pytest.mark.parametrize("sequence", ["acaf", "afc", "af", "ac"])
 def test_without_moduli_the_strip_is_elastic(sequence: str) -> None:
-    orbits = Orbits(sequence, J=1.0)
+    orbits = orbits_of(sequence, J=1.0)
     assert len(orbits.rows)
     nothing = np.zeros((2, len(orbits.rows)))
     _, found = generalised.material_modes(1.0, nothing, np.ones_like(nothing))
@@ -166,7 +166,7 @@ def test_jacobian_is_the_slope_of_the_residual(n: int, sequence: str) -> None:
 
 @pytest.mark.parametrize("sequence", PARTIAL)
 def test_the_return_map_of_one_mode_is_the_onset_slope(sequence: str) -> None:
-    orbits = Orbits(sequence)
+    orbits = orbits_of(sequence)
     _, found = generalised.material_modes(1.0, *orbits.branch)
     m = generalised.at_speed(found, np.full(len(orbits.rows), orbits.k))
     (slope,) = generalised.REGIMES[sequence]["return_map"](*orbits.edges, m, *orbits.parameters)[0]
@@ -183,7 +183,7 @@ def test_the_return_map_of_one_mode_is_the_onset_slope(sequence: str) -> None:
 
 
 def test_return_map_of_two_equal_times_has_the_slope_of_one_as_its_only_eigenvalue() -> None:
-    orbits = Orbits("acaf")
+    orbits = orbits_of("acaf")
     K_1, tau_1 = orbits.branch
     _, one = generalised.material_modes(1.0, K_1, tau_1)
     _, two = generalised.material_modes(1.0, np.concatenate((K_1, 0 * K_1)), np.concatenate((tau_1, tau_1)))
