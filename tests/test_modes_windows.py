@@ -80,11 +80,11 @@ def test_a_period_preserves_the_order(n):
 def test_order_fails_where_a_free_state_lies_below_an_engaged_one():
     """The order's first part is needed: pairs with e ascending but the free one below are not preserved."""
     rng = np.random.default_rng(5)
-    kernel, s = strips(rng, 2)
+    kernel, s = strips(rng, 2, 300)
     order = Order(kernel, s)
-    e = rng.uniform(-2, 3, (2, N))
-    start = np.full(N, np.pi)
-    free, engaged = (march(kernel, s, np.full(N, h), order.to_z(state), start) for h, state in ((False, e), (True, e + 1e-3)))
+    e = rng.uniform(-2, 3, (2, s.size))
+    start = np.full(s.size, np.pi)
+    free, engaged = (march(kernel, s, np.full(s.size, h), order.to_z(state), start) for h, state in ((False, e), (True, e + 1e-3)))
     assert np.any(order.to_e(free.dz) > 1e-3 + order.to_e(engaged.dz) + 1e-3)
 
 
