@@ -148,9 +148,8 @@ def test_a_parabola_gives_the_known_pressure() -> None:
 
 # -- what is refused ----------------------------------------------------------------------------------------------------
 
-# few of many: tools/mutants_derivation.py has them all
+# few of many: tools/mutants_derivation.py has them all, and test_mutants.py has others
 TAMPERED = {
-    "admissibility": ("models.py", "T_sigma / K)", "-T_sigma / K)"),
     "strip profile": ("surface.py", "RIGID = D - 1 + sp.cos(s)", "RIGID = D - 1 - sp.cos(s)"),
     "contact flow": ("flows.py", "(entry - particular.subs(along, since))", "(entry + particular.subs(along, since))"),
     "closures": ("jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step"),
