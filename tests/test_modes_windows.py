@@ -83,8 +83,8 @@ def test_order_fails_where_a_free_state_lies_below_an_engaged_one():
     kernel, s = strips(rng, 2, 300)
     order = Order(kernel, s)
     e = rng.uniform(-2, 3, (2, s.size))
-    start = np.full(s.size, np.pi)
-    free, engaged = (march(kernel, s, np.full(s.size, h), order.to_z(state), start) for h, state in ((False, e), (True, e + 1e-3)))
+    start, held = np.full(s.size, np.pi), np.ones(s.size, bool)
+    free, engaged = (march(kernel, s, h, order.to_z(state), start) for h, state in ((~held, e), (held, e + 1e-3)))
     assert np.any(order.to_e(free.dz) > 1e-3 + order.to_e(engaged.dz) + 1e-3)
 
 
