@@ -213,6 +213,28 @@ def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
     assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1] + 1e-6 * law.tau_sat).all()
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge", "most"),
+    [
+        # over a millionth of its height all strips let go, and the pressure rises; there are 14,500 strips in all
+        (4.11416e-6, 3.64056e-10, 7.53331e-10, 4.346e-7, 7.52729e-8, 1.42871e-7, "constitutive", 30_000),
+        # the curve turns next to a break: 22,600
+        (8.90379e-4, 4.909323e-5, 7.78257e-8, 1.09356e-5, 9.95524e-7, 6.88221e-3, "constitutive", 45_000),
+        # below its crest's release a tenth of the curve is part of the law: 6,000
+        (1e-4, 2.5e-5, 1e-8, 5e-7, 1e-7, 1e-3, "continuous", 12_000),
+    ],
+)
+def test_of_a_curve_above_the_least_pressure_before_nothing_is_interpolated(T_sigma, gamma, delta_0, l, h, V, edge, most):  # noqa: E741
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    level, how = hystrip.Level(l, h), {"V": V, "edge": edge}
+    law = hystrip.friction_law(material, adhesion, level, rtol=1e-5, **how)
+    assert law.converged and law.strips < most
+    p = law.pull_off + (law.p_sat - law.pull_off) * np.array([1e-4, 0.01, 0.3, 0.9])
+    each = hystrip.solve_level(material, adhesion, level, pressure=p, rtol=1e-6, **how)
+    assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1]).all()
+
+
 #: levels with a short memory: T_sigma, gamma, delta_0, l, h, V, edge
 SHORT_MEMORY = [
     (1.1991e-7, 1.74732e-9, 2.40596e-9, 2.03999e-6, 8.10676e-8, 4.05772e-6, "continuous"),

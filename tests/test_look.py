@@ -67,7 +67,7 @@ def test_unloading_comes_to_nothing_above_the_least_pressure_before():
 
 def test_errors_leave_open_whether_it_comes_to_it():
     curve = lambda D: np.where(D > 1, D, 0.02 + 0.1 * D)  # noqa: E731
-    curve_above = lambda D: np.where(D > 1, D - 1, 0.02 + 0.1 * D)  # noqa: E731
+    curve_above = lambda D: np.where(D > 1, D - 1, 0.05 + 0.1 * D)  # noqa: E731
     assert _met(curve, 0, 1, 2)[0] == (0, 1)
     assert _met(curve_above, 0, 1, 2)[0] is None and _met(curve_above, 0, 1, 2, error=0.02)[0] is not None
 

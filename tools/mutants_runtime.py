@@ -197,6 +197,27 @@ MUTANTS = (
         "test_pull_off.py",
     ),
     Mutant(
+        "errors do not leave open what unloading comes to",
+        "level/look.py",
+        "(known + error)[here, ::-1]",
+        "known[here, ::-1]",
+        "test_look.py",
+    ),
+    Mutant(
+        "all of a curve is interpolated, whatever unloading comes to",
+        "level/interpolation.py",
+        "meets.any(axis=1) & ~stage.parts.rough",
+        "~stage.parts.rough",
+        "test_bounded_work.py",
+    ),
+    Mutant(
+        "the curve below the crest's release is interpolated like the rest",
+        "level/curve.py",
+        "intervals.high <= crest[intervals.column]",
+        "intervals.high < -np.inf",
+        "test_bounded_work.py",
+    ),
+    Mutant(
         "a curve ends at a break below which it goes on for a short way",
         "level/look.py",
         "(lowest > ceiling)[:, None]",

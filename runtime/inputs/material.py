@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -63,13 +64,13 @@ class StandardLinearSolid:
         for name, value in (("K", K), ("T_eps", T_eps), ("T_sigma", T_sigma)):
             object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
 
-    @property
+    @cached_property
     def J(self) -> Floats:
         """Instantaneous compliance times K, ``T_sigma/T_eps``; 1 for an elastic foundation (both times zero)."""
         T_eps, T_sigma = np.broadcast_arrays(self.T_eps, self.T_sigma)
         return np.divide(T_sigma, T_eps, out=np.ones(T_eps.shape), where=T_eps > 0)
 
-    @property
+    @cached_property
     def L(self) -> Floats:
         """``1 - J = (T_eps - T_sigma)/T_eps``, without the cancellation of the difference."""
         T_eps, T_sigma = np.broadcast_arrays(self.T_eps, self.T_sigma)

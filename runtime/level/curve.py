@@ -2,7 +2,7 @@
 
 Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together. Unloading
 jumps to re-entrant branches: parts of the curve under a pressure below all that came before, as below the fold of the crest,
-where strips near the edge of the cell still adhere. Only what a rough sample of the curve leaves open is interpolated.
+where strips near the edge of the cell still adhere. Of all below that fold only what two rough looks leave open is interpolated.
 """
 
 from dataclasses import replace
@@ -28,8 +28,8 @@ def trace(
     """Pieces of the curve of every column (its ``D`` is not used) up to penetration ``top`` (saturation, or a cut), to
     ``rtol |value| + atol``; and strips evaluated for each, (n,).
 
-    Below the penetration at which the crest lets go, and where it falls between breaks that are close, they hold only what
-    unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
+    Intervals between breaks which its branch passes by are left out; below the penetration at which the crest lets go they hold
+    only what unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
     columns = replace(columns)  # what is spent on this curve alone is counted
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
