@@ -206,7 +206,7 @@ MUTANTS = (
     Mutant(
         "all of a curve is interpolated, whatever unloading comes to",
         "level/interpolation.py",
-        "meets.any(axis=1) & ~stage.parts.rough",
+        "meets.any(axis=1) & rises & ~stage.parts.rough",
         "~stage.parts.rough",
         "test_bounded_work.py",
     ),

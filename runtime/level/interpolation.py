@@ -158,7 +158,9 @@ class _Work:
         """What unloading may come to, of the second look; and the parts of rough intervals, as coarse as the budget allows."""
         D, values = _with_ends(stage), stage.known[0]
         meets, ceiling = unloading_meets(stage, D, BENDS[1])
-        rest = stage.take(meets.any(axis=1) & ~stage.parts.rough)
+        # branches rise
+        rises = (np.diff(values[:, :, 0], axis=1) > 0).any(axis=1)
+        rest = stage.take(meets.any(axis=1) & rises & ~stage.parts.rough)
         change = np.diff((meets & stage.parts.rough[:, None]).astype(int), axis=1, prepend=0, append=0)
         (row, first), last = np.nonzero(change > 0), np.nonzero(change < 0)[1]
         parts = replace(stage.parts.take(row), low=D[row, first], high=D[row, last], ceiling=ceiling[row], rough=row < 0)
