@@ -281,6 +281,20 @@ def test_a_pressure_is_not_looked_for_in_what_loading_has_met_before(T_sigma, ga
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
+    ("T_sigma", "p_0", "delta_0", "l", "h", "V", "above"),
+    [(7.2e-7, 0.3127, 2.79e-10, 2.235e-6, 1.208e-8, 2.08e-6, 2e-4), (9e-7, 0.266, 7.27e-11, 1.83e-6, 6.66e-8, 9.1e-7, 7e-5)],
+)
+def test_what_lies_behind_where_unloading_meets_a_pressure_is_not_looked_at_closely(T_sigma, p_0, delta_0, l, h, V, above):  # noqa: E741
+    """Just above where gaps stop to open: below, where it falls like a logarithm, the curve comes near the pressure, too."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(p_0=p_0, delta_0=delta_0)
+    at = {"V": V, "D": (h - delta_0 - p_0 / material.K) * (1 + above), "edge": "constitutive", "rtol": 1e-6}
+    known = hystrip.solve_level(material, adhesion, hystrip.Level(l, h), **at)
+    found = hystrip.solve_level(material, adhesion, hystrip.Level(l, h), **at | {"D": None, "pressure": known.p_mean})
+    assert found.converged and found.strips < 3_000 and found.D == pytest.approx(at["D"], rel=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
     ("T_sigma", "gamma", "delta_0", "levels", "pressure", "V"),
     [
         (2.6357e-9, 1.532e-9, 1.15831e-8, [(1e-5, 3.19361e-6), (1.05554e-6, 9.94736e-10)], 7.58029, 3.294e-7),

@@ -67,3 +67,25 @@ def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
         walk = Walk(0, True, p, goal, 1e-8, [])
         walk.go_on(pieces, row, False)
         assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided
+
+
+@pytest.mark.parametrize("unloading", [True, False])
+@pytest.mark.parametrize(("off", "met"), [(0.0, True), (0.01, False)])
+def test_what_lies_behind_where_a_pressure_is_met_waits_until_it_is_not(unloading, off, met):
+    """A curve jumps from 2 - 0.0025 Pa at D = 1 to 2 + 0.0025 Pa at D = 1.5. Next to that end of the piece that is met first,
+    known to 0.01 Pa and ``off`` by as much, or not, either piece may carry a pressure."""
+    side = 1 if unloading else -1
+
+    def piece(D, p, error):
+        known = Errors(np.array([0.5]), np.full((1, 2), error))
+        return Piece(D, D + 1, np.array([[p + 0.5 * np.sign(p - 2)] * 2, [0.5, 0.5]]), known)
+
+    first, behind = (piece(0.75 + 0.75 * at, 2 + 0.0025 * at, 1e-2) for at in (side, -side))
+    walk, found = Walk(0, unloading, 2 + 0.005 * side, 1e-2, 1e-8, []), [first, behind]
+    for one in (first, behind) if not met else (first,):
+        walk.go_on(found, branches_of([[*walk.known, *found]], unloading)[0], False)
+        assert walk.root is None and walk.now[:2].ravel().tolist() == [one.low, one.high]
+        found = [piece(first.low, 2 + (0.0025 + off) * side, 1e-6)]
+    if met:
+        walk.go_on(found, branches_of([[*walk.known, *found]], unloading)[0], False)
+        assert walk.now is None and first.low < walk.root.D < first.high

@@ -73,7 +73,7 @@ class Errors:
         return Errors(np.concatenate((self.at, other.at)), np.concatenate((self.bounds, other.bounds)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors`` over t.
 

@@ -103,8 +103,7 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]
     while left.size:
         _go_along(columns, [walks[i] for i in left], _CLOSEST * size)
-        nowhere = Root(np.nan, 0.0, np.zeros(q))
-        root = Root(*(np.array(v) for v in zip(*(walks[i].root or nowhere for i in left), strict=True)))
+        root = Root(*(np.array(v) for v in zip(*(walks[i].root or Root(np.nan, 0.0, np.zeros(q)) for i in left), strict=True)))
         found = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
         undecided = np.array([walks[i].undecided != "" for i in left])
         out.put(left, Penetrations(*found, undecided, ~np.isnan(root.D) & np.isnan(root.low)))
@@ -154,7 +153,6 @@ def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = Fals
         means = level_means(at, accuracy, at.atol(accuracy, pressure=0.0 if powers else 1e-3, fraction=1.0))
         new, before = np.column_stack((x, means.values)), last[index]
         new[:, 1] = np.maximum(new[:, 1], least)
-        # a step of no more than what is not known tells nothing
         steps, last[index] = new - before, new
         unknown, errors[index] = means.errors + errors[index], means.errors
         wide = (steps[:, 0] * steps[:, 1] > 0) & (np.abs(steps[:, 1]) > unknown[:, 0])

@@ -5,7 +5,7 @@ leaves open which, what comes to the pressure is interpolated again, finer, or d
 """
 
 from dataclasses import dataclass, field
-from itertools import compress, pairwise
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -44,7 +44,8 @@ def growing(bottom: float, top: float, width: float, unloading: bool) -> list[tu
 class Walk:
     """To the pressure ``p``, Pa. ``goal``: what the curve's may err by so far, at last ``finest``. ``waiting``: what is left, the
     next part last; ``now``: the intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``:
-    pieces of all others. ``arrived``: it need not go on. ``undecided``: why, if it is."""
+    pieces of all others; ``later``: those that come to the pressure, but behind where it is met as far as was known, and so are
+    not as fine yet. ``arrived``: it need not go on. ``undecided``: why, if it is."""
 
     column: int
     unloading: bool
@@ -54,6 +55,7 @@ class Walk:
     waiting: list[tuple[float, float]]
     now: np.ndarray | None = None
     known: list[Piece] = field(default_factory=list)
+    later: list[Piece] = field(default_factory=list)
     root: Root | None = None
     arrived: bool = False
     undecided: str = ""
@@ -69,13 +71,22 @@ class Walk:
         # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
         end = 2 * (len(row) - (self.unloading or not self.waiting))
         # a turn that no node met may be off by what was asked for, whatever the errors say: as long as more can be asked for
-        least, k, most = (min(_place(row, self.p, side, self.goal * (self.goal > self.finest)), end) for side in (-1, 0, 1))
+        unseen = self.goal * (self.goal > self.finest)
+        # what lies behind does not matter as long as the pressure is met before
+        doubts = [0.0 if part.piece in self.later else max(_DOUBT * part.errors.most[0], unseen) for part in row]
+        at, low, high = self.p + np.outer((-1, 0, 1), doubts), *np.array([(part.p_low, part.p_high) for part in row]).T
+        # below all branches (-1), on number k (2 k), or just above it (2 k + 1)
+        k = np.count_nonzero(low <= at, axis=1) - 1
+        least, k, most = np.minimum(2 * k + ((k < 0) | (at[range(3), k] > high[k])), end).tolist()
         joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
         inside = 0 <= least and most < 2 * len(row) - 1
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
-        if not (least == most or whole):
-            if self.goal > self.finest and not exhausted:
-                self._ask_again([self._comes_to(piece) for piece in self.known])
+        on, more = None if k % 2 else row[k // 2].piece, self.goal > self.finest and not exhausted
+        if not (least == most or whole) or (self.later and (on is None or on in self.later)):
+            if more or self.later:
+                again = [piece for piece in self.known if piece in self.later or self._comes_to(piece)]
+                self.later = [one for one in again if on and more and (one.low < on.low if self.unloading else one.low > on.low)]
+                self._ask_again([piece for piece in again if piece not in self.later])
                 self.goal = max(_FINER * self.goal, self.finest)
                 return
             # two branches that overlap by less than they are known to may be one
@@ -90,34 +101,27 @@ class Walk:
         """Whether to ask again for what comes to the pressure, but for errors, and has ``turns`` (m, (n,)), where strips change
         over, before the root ``D``; divided there. The curve may turn as well, by less than it may err."""
         before = turns[~(turns <= D if self.unloading else turns >= D)]
-        again = [((piece.low < before) & (before < piece.high)).any() and self._comes_to(piece) for piece in self.known]
-        if any(again):
+        again = [one for one in self.known if ((one.low < before) & (before < one.high)).any() and self._comes_to(one)]
+        if again:
             self.root, self.undecided, self.arrived = None, "", False
             self._ask_again(again, before)
-        return any(again)
+        return bool(again)
 
-    def _ask_again(self, again: list[bool], breaks: np.ndarray = np.empty(0)) -> None:
+    def _ask_again(self, again: list[Piece], breaks: np.ndarray = np.empty(0)) -> None:
         """Go along the pieces asked for ``again``, divided at the ``breaks`` (m, (n,)), instead of what is known there."""
         ends = []
-        for piece in compress(self.known, again):
-            cuts = [piece.low, *np.sort(breaks[(piece.low < breaks) & (breaks < piece.high)]), piece.high]
+        for piece in again:
+            cuts = np.unique(np.clip([piece.low, piece.high, *breaks], piece.low, piece.high))
             for low, high in pairwise(cuts):
                 ends.append((low, high, piece.inner_low and low == piece.low, piece.inner_high and high == piece.high))
         self.now = np.array(ends).T
-        self.known = [piece for piece, so in zip(self.known, again, strict=True) if not so]
+        self.known = [piece for piece in self.known if piece not in again]
 
     def _comes_to(self, piece: Piece) -> bool:
         """Whether the curve carries the pressure in a piece or next to it, but for errors."""
         t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
         met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], self.goal)
         return bool(met.min() - doubt <= self.p <= met.max() + doubt)
-
-
-def _place(row: list[Branch], p: float, side: int, unseen: float) -> int:
-    """Where a pressure is, with doubts on a ``side``: below all branches (-1), on number k (2 k), or just above it (2 k + 1)."""
-    at = [p + side * max(_DOUBT * part.errors.most[0], unseen) for part in row]
-    k = int(np.count_nonzero([part.p_low for part in row] <= np.array(at))) - 1
-    return 2 * k + (k < 0 or at[k] > row[k].p_high)
 
 
 def _in_branch(part: Branch, p: float) -> Root:
