@@ -78,14 +78,12 @@ def equal_strips(columns: LevelBatch) -> Averages:
     The error estimate is the sum of the two largest differences between neighbours over N: so much jumps of the integrand at both
     ends of a zone may shift the sum by, and kinks less. The crest and the valley are neighbours that do not count for the sum.
     """
-    strips = columns.strips
-    theta = np.pi * np.concatenate(([0.0], (np.arange(strips) + 0.5) / strips, [1.0]))
+    theta = np.pi * np.concatenate(([0.0], (np.arange(columns.strips) + 0.5) / columns.strips, [1.0]))
     column = np.repeat(np.arange(columns.size), theta.size)
-    _, values, *_ = columns.evaluate(column, np.tile(theta, columns.size))
-    around = values.reshape(columns.size, theta.size, -1)
+    around = columns.evaluate(column, np.tile(theta, columns.size))[1].reshape(columns.size, theta.size, -1)
     values = around[:, 1:-1]
     mean = values.mean(axis=1)
-    errors = np.sort(np.abs(np.diff(around, axis=1)), axis=1)[:, -2:].sum(axis=1) / strips
+    errors = np.sort(np.abs(np.diff(around, axis=1)), axis=1)[:, -2:].sum(axis=1) / columns.strips
     # no transitions are looked for: one zone for all that is known
     zones = [Zones(np.zeros(1), np.zeros(1), np.full(1, np.pi), *np.zeros((3, 1, mean.shape[1])))] * columns.size
     return Averages(mean, errors, np.full(columns.size, theta.size), zones=zones)
