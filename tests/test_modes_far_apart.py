@@ -129,6 +129,17 @@ def test_strips_ever_closer_to_the_end_of_a_branch_are_found(case):
         p = solved(D, *STRIPS[case]).p_mean
 
 
+def test_past_the_end_of_a_branch_links_are_shortened_until_they_hold():
+    """Loading, behind where its orbit vanishes: saturated contact, which the march finds, too."""
+    case = STRIPS["contact up to the release"]
+    branch, moduli, times, p_0, delta_0, l, A, end, V = case  # noqa: E741
+    D = end + (A + end) * np.linspace(-0.02, 0.02, 20)[8:14]
+    found = solved(D, *case)
+    true = [oracle.solve_si(K, moduli, times, V, l, A, each, p_0, delta_0, branch, digits=30) for each in D]
+    assert found.regime.tolist() == [each.sequence for each in true]
+    assert found.p_mean == pytest.approx([float(each.p_mean) for each in true], rel=1e-12)
+
+
 #: contact ends, or begins, within rounding of what the state or a phase can tell: as ``STRIPS``
 SHORT = {
     "saturation missed by 5e-14, three times alike": (

@@ -159,7 +159,9 @@ class Search:
                 chain, _ = Forced.settled(self.kernel, s, guess, 1)
                 contact = chain.edges[1:3]
                 here = balanced(growth.swapaxes(0, 1).reshape(2, -1), *linearised(chain, self.rising), first)
-                growth[1:] = here.reshape(2, -1, i.size).swapaxes(0, 1)[1:]
+                # at once only if the links are as long as they may be: else the first one would be no shorter than this
+                part = 1 - (1 - self.share[i] / _SHARE) ** np.arange(len(shares))[:, None, None]
+                growth += part * (here.reshape(2, -1, i.size).swapaxes(0, 1) - growth)
         # a few windows that settle late would cost as many turns of all: they end their chains
         turns = (0 if full else 1) if self.rising else SETTLING // 2
         chain, settles = Forced.settled(self.kernel, s, guess, turns)
