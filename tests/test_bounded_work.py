@@ -230,8 +230,8 @@ def test_of_a_curve_above_the_least_pressure_before_nothing_is_interpolated(T_si
     level, how = hystrip.Level(l, h), {"V": V, "edge": edge}
     law = hystrip.friction_law(material, adhesion, level, rtol=1e-5, **how)
     assert law.converged and law.strips < most
-    p = law.pull_off + (law.p_sat - law.pull_off) * np.array([1e-4, 0.01, 0.3, 0.9])
-    each = hystrip.solve_level(material, adhesion, level, pressure=p, rtol=1e-6, **how)
+    p = law.pull_off + (law.p_sat - law.pull_off) * np.array([1e-3, 0.3])
+    each = hystrip.solve_level(material, adhesion, level, pressure=p, rtol=1e-5, **how)
     assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1]).all()
 
 
