@@ -110,7 +110,7 @@ MUTANTS = (
         "level/look.py",
         "slopes = np.diff(p) / step[:, 1:-1]",
         "slopes = 0 * step[:, 1:-1]",
-        "test_pull_off.py",
+        "test_look.py",
     ),
     Mutant(
         "loading passes by a least pressure that errors leave open",
