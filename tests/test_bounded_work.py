@@ -7,7 +7,7 @@ import pytest
 
 import hystrip
 from hystrip import multilevel
-from hystrip.level import averages, interpolation, inverse, lower_levels
+from hystrip.level import averages, curve, interpolation, inverse, lower_levels
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -233,6 +233,16 @@ def test_of_a_curve_above_the_least_pressure_before_nothing_is_interpolated(T_si
     p = law.pull_off + (law.p_sat - law.pull_off) * np.array([1e-3, 0.3])
     each = hystrip.solve_level(material, adhesion, level, pressure=p, rtol=1e-5, **how)
     assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1]).all()
+
+
+def test_loading_has_no_rough_parts(monkeypatch):
+    """Nor where the crest changes nowhere: of them only what unloading comes to is interpolated."""
+    given = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8), hystrip.Level(5e-7, 1e-7)
+    how = {"V": 1e-3, "branch": "loading", "rtol": 1e-3}
+    law, whole = hystrip.friction_law(*given, **how), curve.smooth_intervals
+    monkeypatch.setattr(curve, "smooth_intervals", lambda *of: (whole(*of)[0], np.full(1, np.inf)))
+    p = np.linspace(law.pull_off, law.p_sat, 50)
+    assert (hystrip.friction_law(*given, **how)(p) == law(p)).all()
 
 
 #: levels with a short memory: T_sigma, gamma, delta_0, l, h, V, edge

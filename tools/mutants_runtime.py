@@ -213,8 +213,8 @@ MUTANTS = (
     Mutant(
         "the curve below the crest's release is interpolated like the rest",
         "level/curve.py",
-        "intervals.high <= crest[intervals.column]",
-        "intervals.high < -np.inf",
+        "(intervals.high <= crest[intervals.column])",
+        "(intervals.high < -np.inf)",
         "test_bounded_work.py",
     ),
     Mutant(

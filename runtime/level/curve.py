@@ -35,7 +35,7 @@ def trace(
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     intervals = without_hidden(columns, intervals, atol[:, 0])
     # parts below that at which the crest lets go may lie under the pressures of all above them
-    intervals.rough[:] = intervals.high <= crest[intervals.column]
+    intervals.rough[:] = (columns.branch == "unloading") & (intervals.high <= crest[intervals.column])
     return interpolate(columns, intervals, budget), columns.spent
 
 

@@ -127,10 +127,12 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> Non
             for k, walk in enumerate(fresh):
                 walk.now = ends[:, row == k]
         low, high, *inner = np.concatenate([walk.now for walk in going], axis=1)
-        column, goal = np.repeat([(walk.column, walk.goal) for walk in going], [walk.now.shape[1] for walk in going], axis=0).T
-        atol = np.column_stack((goal, np.full((low.size, columns.scales.size - 1), LARGEST)))
-        ends, rough = [v > 0 for v in inner], np.zeros(low.size, bool)
-        intervals = Intervals(low, high, column.astype(int), *ends, 0 * low, atol, np.full(low.size, np.inf), rough)
+        column = np.repeat([walk.column for walk in going], [walk.now.shape[1] for walk in going])
+        # of all quantities the pressure alone is asked for
+        rtol, atol = np.zeros(columns.size), np.full((columns.size, columns.scales.size), LARGEST)
+        atol[[walk.column for walk in going], 0] = [walk.goal for walk in going]
+        intervals = Intervals.of(column, low, high, rtol, atol)
+        intervals.inner_low[:], intervals.inner_high[:] = (v > 0 for v in inner)
         pieces = interpolate(columns, without_hidden(columns, intervals, finest), first=_FIRST)
         known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], columns.branch == "unloading")
         for walk, row in zip(going, known, strict=True):
@@ -153,6 +155,7 @@ def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = Fals
         means = level_means(at, accuracy, at.atol(accuracy, pressure=0.0 if powers else 1e-3, fraction=1.0))
         new, before = np.column_stack((x, means.values)), last[index]
         new[:, 1] = np.maximum(new[:, 1], least)
+        # a step of no more than what is not known tells nothing
         steps, last[index] = new - before, new
         unknown, errors[index] = means.errors + errors[index], means.errors
         wide = (steps[:, 0] * steps[:, 1] > 0) & (np.abs(steps[:, 1]) > unknown[:, 0])
