@@ -334,6 +334,26 @@ def test_a_pressure_is_not_looked_for_where_the_curve_can_only_fall():
     assert abs(coarse.tau - fine.tau) <= coarse.tau_error + fine.tau_error
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("T_sigma", "p_0", "delta_0", "l", "h", "V"),
+    [
+        (4.2848e-3, 67.1313, 1.18347e-9, 7.35004e-7, 7.55362e-8, 1.8932e-7),
+        (2.60939e-3, 111.599, 3.5857e-8, 5.51361e-6, 2.99319e-7, 2.8978e-6),
+        # this one carries the pressure below, too
+        (1.49398e-5, 34.5153, 1.52995e-8, 1.38769e-5, 3.5311e-7, 5.09525e-6),
+    ],
+)
+def test_unloading_does_not_look_into_what_is_narrower_than_a_pressure_is_known(T_sigma, p_0, delta_0, l, h, V):  # noqa: E741
+    """As gaps open that adhere throughout, all strips let go within 1e-10 of ``h``: the curve is least above, and jumps."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(p_0=p_0, delta_0=delta_0)
+    level, how, opens = hystrip.Level(l, h), {"V": V, "edge": "constitutive", "rtol": 1e-6}, h - delta_0 - p_0 / material.K
+    least = hystrip.solve_level(material, adhesion, level, D=opens + 1e-8 * h, **how).p_mean
+    found = hystrip.solve_level(material, adhesion, level, pressure=least + np.array([1e-5, -1e-5]) * abs(least), **how)
+    assert found.converged.all() and found.strips < 6_000
+    assert found.D[0] > opens and not found.D[1] > opens
+
+
 @pytest.mark.parametrize("V", [2e-6, 5e-6, 2e-5])
 def test_what_unloading_jumps_over_is_only_looked_at(V):
     """The same with ever longer memory: strips let go within 1e-9 to 1e-2 of ``h``, while the pressure rises."""

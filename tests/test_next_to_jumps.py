@@ -42,13 +42,20 @@ def test_the_side_of_a_jump_is_told(case):
     assert np.ptp(tau) > 0.1 * max(tau)
 
 
+def _begun(unloading, p, rough):
+    """A walk to ``p``, at last known to 1e-8 Pa, whose whole way is being looked at."""
+    walk = Walk(0, unloading, p, rough, 1e-8, [(0.0, 3.0)])
+    assert walk.begin() == (0.0, 3.0) and walk.goal == rough
+    return walk
+
+
 @pytest.mark.parametrize("unloading", [True, False])
 def test_at_a_jump_itself_either_side_may_be_meant(unloading):
     """A curve from 1 to 2 Pa, known to 1e-8: 1 Pa less 1e-6 is not on it, 1 Pa to the last digits is, or is not."""
     piece = Piece(0.0, 1.0, np.array([[1.5, 1.5], [0.5, 0.5]]), Errors(np.array([0.5]), np.full((1, 2), 1e-8)))
     (row,) = branches_of([[piece]], unloading)
     for p, told, why in ((1 - 1e-6, False, ""), (1 - 1e-9, True, AT_JUMP), (1 + 1e-9, True, AT_JUMP), (1 + 1e-6, True, "")):
-        walk = Walk(0, unloading, p, 1e-8, 1e-8, [])
+        walk = _begun(unloading, p, 1e-8)
         walk.go_on([piece], row, False)
         assert (walk.root is not None) is told and walk.undecided == why
         assert not told or walk.root.D == pytest.approx(0.0, abs=1e-9)
@@ -64,9 +71,35 @@ def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
     ]
     (row,) = branches_of([pieces], True)
     for goal, again in ((1e-2, True), (1e-8, False)):
-        walk = Walk(0, True, p, goal, 1e-8, [])
+        walk = _begun(True, p, goal)
         walk.go_on(pieces, row, False)
         assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided
+
+
+def _line(low, bottom, error):
+    """A piece from ``low`` on, over 1 m and 1 Pa, known to ``error``."""
+    return Piece(low, low + 1, np.array([[bottom + 0.5] * 2, [0.5] * 2]), Errors(np.array([0.5]), np.full((1, 2), error)))
+
+
+def test_a_pressure_that_may_be_on_the_last_of_several_branches_is_asked_for_again():
+    """From 1 Pa up and, after a jump, from 3 up: 0.995 Pa, where 0.01 Pa are not known."""
+    walk, pieces = _begun(True, 0.995, 1e-2), [_line(0.0, 1.0, 1e-6), _line(1.0, 3.0, 1e-6)]
+    walk.go_on(pieces, branches_of([pieces], True)[0], False)
+    assert walk.root is None and walk.now[:2].ravel().tolist() == [0.0, 1.0] and walk.goal == pytest.approx(3e-4)
+
+
+@pytest.mark.parametrize(("bottom", "again"), [(1.006, True), (1.1, False)])
+def test_a_later_part_is_known_as_well_as_its_pressures_ask_for(bottom, again):
+    """One part ends 1e-6 Pa above the pressure. The next one, rough at first, counts for nothing unless it errs by that much."""
+    walk = Walk(0, True, 1 - 1e-6, 1e-2, 1e-8, [(-1.0, 0.0)])
+    walk.goal, first = 1e-8, _line(0.0, 1.0, 1e-9)
+    walk.go_on([first], branches_of([[first]], True)[0], False)
+    assert walk.now is None and not walk.arrived
+    walk.begin()
+    behind = _line(-1.0, bottom, 1e-6)
+    walk.go_on([behind], branches_of([[first, behind]], True)[0], False)
+    assert (walk.now is not None) is again and walk.root is None
+    assert not again or (walk.now[:2].ravel().tolist() == [-1.0, 0.0] and walk.goal == pytest.approx(3e-4))
 
 
 @pytest.mark.parametrize("unloading", [True, False])
@@ -81,7 +114,7 @@ def test_what_lies_behind_where_a_pressure_is_met_waits_until_it_is_not(unloadin
         return Piece(D, D + 1, np.array([[p + 0.5 * np.sign(p - 2)] * 2, [0.5, 0.5]]), known)
 
     first, behind = (piece(0.75 + 0.75 * at, 2 + 0.0025 * at, 1e-2) for at in (side, -side))
-    walk, found = Walk(0, unloading, 2 + 0.005 * side, 1e-2, 1e-8, []), [first, behind]
+    walk, found = _begun(unloading, 2 + 0.005 * side, 1e-2), [first, behind]
     for one in (first, behind) if not met else (first,):
         walk.go_on(found, branches_of([[*walk.known, *found]], unloading)[0], False)
         assert walk.root is None and walk.now[:2].ravel().tolist() == [one.low, one.high]

@@ -40,20 +40,14 @@ def trace(
 
 
 def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:
-    """The intervals between the breaks of the curve of every column, ascending; where its crest lets go, inf if never, (n,).
-
-    Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more touches.
-    So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
-    falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out.
-    """
-    K, h = columns.material.K, columns.level.h
+    """The intervals between the breaks of the curve of every column, ascending; where its crest lets go, inf if never, (n,)."""
+    h = columns.level.h
     # closer to a threshold rounding may decide it the other way
     inside = 64 * EPS * (h + np.abs(top) + 2 * columns.stretch + columns.adhesion.delta_0)
     column, low, high, crest = between_breaks(columns, np.arange(columns.size), scan(columns, top))
     # down to there strips cling by adhesion all along when unloading
     start = np.where(np.isfinite(crest), np.fmin(crest, h + straight(columns)[1][OPENS]), first_contact(columns))
-    wide = high - low > np.maximum(2 * inside, atol[:, 0] / K)[column]
-    intervals = Intervals.of(column, low, high, rtol, atol).take(wide & (low >= start[column]))
+    intervals = Intervals.of(column, low, high, rtol, atol).take(low >= start[column])
     # at the top a curve is but cut, or saturates
     intervals.inner_high[:] = intervals.high > (top - 2 * inside)[intervals.column]
     return intervals, crest
@@ -61,7 +55,11 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
 
 def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) -> Intervals:
     """The intervals, but for what loading has met before where gaps that adhere throughout open, if they end little above: with
-    short memory all strips let go there at once and the pressure falls. It is known to ``atol``, Pa (n,), for each column."""
+    short memory all strips let go there at once and the pressure falls. It is known to ``atol``, Pa (n,), for each column.
+
+    Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more touches.
+    So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
+    falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out."""
     K, h = columns.material.K, columns.level.h
     # nearer to a threshold than that rounding decides strip by strip
     opens, nearest = h + columns.opens, 64 * EPS * (h - columns.opens)
@@ -86,4 +84,4 @@ def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) 
         upper.low, upper.inner_low = D[np.arange(upper.size), 1 + more.argmax(axis=1)], cut
         lower, upper = lower.take(cut), upper.take(cut & more.any(axis=1))
     parts = Intervals.joined([intervals.take(~inside), lower, upper])
-    return parts.take(parts.width > nearest)
+    return parts.take(parts.width > np.maximum(nearest + 64 * EPS * np.abs(parts.high), atol[parts.column] / K))

@@ -100,9 +100,10 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     out, left, floor = Penetrations.at(p * np.nan), np.arange(p.size), 1e-3 * columns.scales[0]
     size, ways = np.abs(p) + floor, [growing(bottom, top, _NEXT * h, unloading) for top in cut_penetration(columns, p, full)]
     goal = np.maximum(_ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
-    walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]
+    finest, narrow = _CLOSEST * size, _CLOSEST * size / columns.material.K
+    walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, finest, ways, narrow, strict=True)]
     while left.size:
-        _go_along(columns, [walks[i] for i in left], _CLOSEST * size)
+        _go_along(columns, [walks[i] for i in left], finest)
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or Root(np.nan, 0.0, np.zeros(q)) for i in left), strict=True)))
         found = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
         undecided = np.array([walks[i].undecided != "" for i in left])
@@ -120,7 +121,7 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> Non
     bottom = first_contact(columns)
     while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
         if fresh := [walk for walk in going if walk.now is None]:
-            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
+            D = np.linspace(*np.array([walk.begin() for walk in fresh]).T, _LOOKS, axis=1)
             row, low, high, _ = between_breaks(columns, np.array([walk.column for walk in fresh]), D)
             # at the top the curve is but cut, or saturates
             ends = np.array((low, high, (low == D[row, 0]) & (low > bottom), high == D[row, -1]))

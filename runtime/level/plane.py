@@ -103,10 +103,6 @@ def locate(columns: LevelBatch, boundary: Boundary, start: CurvePoints, unknown:
             usable = np.isfinite(step).all(axis=0) & (size < largest)
             active, step, size = active[usable], step[:, usable], size[usable]
             damping = 1 / np.maximum(size, 1.0)  # no edge moves by more than a radian, A and E by no more than their size
-            # of the zone behind the last edge, too, some is left
-            rest, grown = TWO_PI - (edges[-1] - edges[0])[active], damping * step[1:k].sum(axis=0)
-            share = np.divide(grown, rest, out=np.zeros_like(rest), where=(rest > 0) & (grown > 0))
-            damping *= np.where(share > 0.9, (1 - _left(share)) / share, 1.0)
             edges[:, active] = _moved(edges[:, active], damping * step[:k])
             moved = damping * step[k]
             own[active] = _added(own[active], moved) if unknown == "A" else own[active] + moved
@@ -122,18 +118,12 @@ def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 
 def _added(value: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """``value + step``; what is positive stays so.
-
-    Fast modes make zones of 1e-8 radians whose edges move by far more than that."""
+    """``value + step``; what is positive stays so: steps down by more than nine tenths of it leave a part that falls like a
+    reciprocal. Fast modes make zones of 1e-8 radians whose edges move by far more than that."""
     down = (step < 0) & (value > 0)
     share = np.divide(-step, value, out=np.zeros_like(value), where=down)
-    return np.where(down, value * _left(share), value + step)
-
-
-def _left(share: np.ndarray) -> np.ndarray:
-    """What a step down by this ``share`` (>= 0) of a positive number leaves of it: all but the share up to nine tenths; from
-    there on it falls like a reciprocal, at the same slope at first."""
-    return np.where(share <= 0.9, 1 - share, 0.01 / np.maximum(share - 0.8, 0.1))
+    left = np.where(share <= 0.9, 1 - share, 0.01 / np.maximum(share - 0.8, 0.1))
+    return np.where(down, value * left, value + step)
 
 
 def _step(columns: LevelBatch, boundary: Boundary, at: CurvePoints, unknown: str) -> np.ndarray:

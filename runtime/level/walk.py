@@ -4,6 +4,7 @@ The curve is interpolated part by part until the pressure lies on a branch of it
 leaves open which, what comes to the pressure is interpolated again, finer, or divided where strips change over.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
@@ -42,60 +43,85 @@ def growing(bottom: float, top: float, width: float, unloading: bool) -> list[tu
 
 @dataclass
 class Walk:
-    """To the pressure ``p``, Pa. ``goal``: what the curve's may err by so far, at last ``finest``. ``waiting``: what is left, the
-    next part last; ``now``: the intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``:
-    pieces of all others; ``later``: those that come to the pressure, but behind where it is met as far as was known, and so are
-    not as fine yet. ``arrived``: it need not go on. ``undecided``: why, if it is."""
+    """To the pressure ``p``, Pa. What its curve may err by: at the first look at a part ``rough``, at last ``finest``, in what is
+    asked for now ``goal``. ``waiting``: what is left, the next part last; what is as ``narrow``, m, is left out; ``now``: the
+    intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``: pieces of all others, and the
+    goal each was asked with. ``arrived``: it need not go on. ``undecided``: why, if it is."""
 
     column: int
     unloading: bool
     p: float
-    goal: float
+    rough: float
     finest: float
     waiting: list[tuple[float, float]]
+    narrow: float = 0.0
+    goal: float = np.nan
     now: np.ndarray | None = None
-    known: list[Piece] = field(default_factory=list)
-    later: list[Piece] = field(default_factory=list)
+    known: dict[Piece, float] = field(default_factory=dict)
     root: Root | None = None
     arrived: bool = False
     undecided: str = ""
 
+    def begin(self) -> tuple[float, float]:
+        """The next part of the way."""
+        self.goal = self.rough
+        return self.waiting.pop()
+
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
         not ``exhausted`` what comes to the pressure may be asked for again, finer."""
-        self.now, self.known = None, [*self.known, *found]
+        self.now = None
+        self.known.update(dict.fromkeys(found, self.goal))
         clings = self.p < 0 and not self.unloading
         # as the first strips cling the pressure falls below zero, and where it is least is known when it comes back
         if not row or (clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0])):
             return
-        # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
-        end = 2 * (len(row) - (self.unloading or not self.waiting))
-        # a turn that no node met may be off by what was asked for, whatever the errors say: as long as more can be asked for
-        unseen = self.goal * (self.goal > self.finest)
-        # what lies behind does not matter as long as the pressure is met before
-        doubts = [0.0 if part.piece in self.later else max(_DOUBT * part.errors.most[0], unseen) for part in row]
-        at, low, high = self.p + np.outer((-1, 0, 1), doubts), *np.array([(part.p_low, part.p_high) for part in row]).T
-        # below all branches (-1), on number k (2 k), or just above it (2 k + 1)
-        k = np.count_nonzero(low <= at, axis=1) - 1
-        least, k, most = np.minimum(2 * k + ((k < 0) | (at[range(3), k] > high[k])), end).tolist()
-        joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
-        inside = 0 <= least and most < 2 * len(row) - 1
-        whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
-        on, more = None if k % 2 else row[k // 2].piece, self.goal > self.finest and not exhausted
-        if not (least == most or whole) or (self.later and (on is None or on in self.later)):
-            if more or self.later:
-                again = [piece for piece in self.known if piece in self.later or self._comes_to(piece)]
-                self.later = [one for one in again if on and more and (one.low < on.low if self.unloading else one.low > on.low)]
-                self._ask_again([piece for piece in again if piece not in self.later])
-                self.goal = max(_FINER * self.goal, self.finest)
+        k, told, one = self._place(row)
+        # a branch may be hidden in a piece that is known less well than those that have some
+        on = {part.piece: self.known[part.piece] for part in row}
+        coarser = [piece for piece in self.known if piece not in on and self.known[piece] > min(on.values())]
+        if not told or self._near(row, k, coarser):
+            near = self._near(row, k, self.known)
+            goal = max(_FINER * max((self.known[piece] for piece in near), default=0.0), self.finest)
+            if not exhausted and (again := [piece for piece in near if self.known[piece] > goal]):
+                self._ask_again(again, goal)
                 return
             # two branches that overlap by less than they are known to may be one
-            if not (inside and all(a.inner_high and b.inner_low for a, b in joints)):
+            if not told and not one:
                 self.undecided = NO_CURVE if exhausted else AT_JUMP
             k = max(k, 0)
         if 0 <= k < 2 * len(row) - 1:
             self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
         self.arrived = self.root is not None or clings
+
+    def _place(self, row: list[Branch]) -> tuple[int, bool, bool]:
+        """Where the pressure is: below all branches (-1), on number k (2 k) or just above it (2 k + 1); whether that is told, for
+        all they may err by; and whether those that it may be on are one as far as is known."""
+        low, high = np.array([(part.p_low, part.p_high) for part in row]).T
+        # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
+        high[-1] = np.inf if self.unloading or not self.waiting else high[-1]
+
+        def place(p):
+            k = np.count_nonzero(low <= p) - 1
+            return int(2 * k + (k < 0 or (p > high)[k]))
+
+        k = place(self.p)
+        # a turn that no node met may be off by what was asked for, whatever the errors say, while more can be asked for; what
+        # lies behind does not matter as long as the pressure is met before
+        unseen = [self.known[part.piece] * (self.known[part.piece] > self.finest) for part in row]
+        doubts = np.maximum(unseen, [_DOUBT * part.errors.most[0] for part in row])
+        doubts[slice(max(k, 0) // 2) if self.unloading else slice((k + 3) // 2, None)] = 0.0
+        least, most = place(self.p - doubts), place(self.p + doubts)
+        joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
+        inside = 0 <= least and most < 2 * len(row) - 1
+        whole = inside and all(a.t_high == 1 and b.t_low == 0 and b.piece.low - a.piece.high <= self.narrow for a, b in joints)
+        return k, least == most or whole, inside and all(a.inner_high and b.inner_low for a, b in joints)
+
+    def _near(self, row: list[Branch], k: int, among: Iterable[Piece]) -> list[Piece]:
+        """Those pieces ``among`` some in which the curve may carry the pressure before it does at place ``k`` of the branches."""
+        last, sign = (k // 2, 1) if self.unloading else ((k + 1) // 2, -1)
+        met = sign * row[last].piece.low if 0 <= last < len(row) else -np.inf
+        return [piece for piece in among if sign * piece.low >= met and self._comes_to(piece)]
 
     def divide(self, turns: np.ndarray, D: float) -> bool:
         """Whether to ask again for what comes to the pressure, but for errors, and has ``turns`` (m, (n,)), where strips change
@@ -104,23 +130,23 @@ class Walk:
         again = [one for one in self.known if ((one.low < before) & (before < one.high)).any() and self._comes_to(one)]
         if again:
             self.root, self.undecided, self.arrived = None, "", False
-            self._ask_again(again, before)
+            self._ask_again(again, min(self.known[piece] for piece in again), before)
         return bool(again)
 
-    def _ask_again(self, again: list[Piece], breaks: np.ndarray = np.empty(0)) -> None:
-        """Go along the pieces asked for ``again``, divided at the ``breaks`` (m, (n,)), instead of what is known there."""
-        ends = []
+    def _ask_again(self, again: list[Piece], goal: float, breaks: np.ndarray = np.empty(0)) -> None:
+        """Go along the pieces asked for ``again`` with a new ``goal``, divided at the ``breaks`` (m, (n,))."""
+        self.goal, ends = goal, []
         for piece in again:
+            del self.known[piece]
             cuts = np.unique(np.clip([piece.low, piece.high, *breaks], piece.low, piece.high))
             for low, high in pairwise(cuts):
                 ends.append((low, high, piece.inner_low and low == piece.low, piece.inner_high and high == piece.high))
         self.now = np.array(ends).T
-        self.known = [piece for piece in self.known if piece not in again]
 
     def _comes_to(self, piece: Piece) -> bool:
         """Whether the curve carries the pressure in a piece or next to it, but for errors."""
         t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
-        met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], self.goal)
+        met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], self.known[piece])
         return bool(met.min() - doubt <= self.p <= met.max() + doubt)
 
 
