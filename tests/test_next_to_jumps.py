@@ -88,6 +88,18 @@ def test_a_pressure_that_may_be_on_the_last_of_several_branches_is_asked_for_aga
     assert walk.root is None and walk.now[:2].ravel().tolist() == [0.0, 1.0] and walk.goal == pytest.approx(3e-4)
 
 
+@pytest.mark.parametrize(("gap", "why"), [(1e-10, ""), (1e-8, AT_JUMP)])
+def test_across_what_is_left_out_as_narrow_a_curve_goes_on(gap, why):
+    """Two branches meet at 2 Pa but for 1e-9 Pa, beside a part of the way that was not looked at."""
+    walk, pieces = (
+        Walk(0, True, 2 + 0.5e-9, 1e-8, 1e-8, [(0.0, 3.0)], narrow=1e-9),
+        [_line(0.0, 1.0, 1e-8), _line(1 + gap, 2 + 1e-9, 1e-8)],
+    )
+    walk.begin()
+    walk.go_on(pieces, branches_of([pieces], True)[0], False)
+    assert walk.undecided == why and walk.root.D == pytest.approx(1.0)
+
+
 @pytest.mark.parametrize(("bottom", "again"), [(1.006, True), (1.1, False)])
 def test_a_later_part_is_known_as_well_as_its_pressures_ask_for(bottom, again):
     """One part ends 1e-6 Pa above the pressure. The next one, rough at first, counts for nothing unless it errs by that much."""
