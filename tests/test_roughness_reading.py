@@ -10,7 +10,6 @@ from surfaces import eq4
 
 import hystrip
 from hystrip.roughness import Scan, levels_of, read_surface
-from hystrip.roughness.units import _in_comments
 from hystrip.scene import load_scene
 
 LEVELS = [(1e-5, 1e-6), (5e-7, 1e-7)]
@@ -133,6 +132,49 @@ def test_units_of_coordinates_may_be_stated_one_by_one(files, tmp_path, head, si
     scan = read_surface(path, unit=None if head.count("units") == 2 else "um")
     assert f"heights in {'nm as the file says' if 'nm' in head else 'µm as given'}" in scan.units
     assert scan.sizes == pytest.approx((sizes, sizes)) and np.ptp(scan.heights) / height == pytest.approx(1)
+
+
+DEKTAK = "Scan Parameters\nType,Standard\n\nScan Data\n\nLateral um,Total Profile{},\n"
+
+
+@pytest.mark.parametrize(
+    ("head", "separator", "encoding"),
+    [
+        ("x [mm],z [um]\n", ",", "utf-8"),
+        ("Messung 1\nDatum 2.3.2024\nx [mm];z [µm]\n", ";", "cp1252"),
+        ("x/mm\tz/um\n", "\t", "utf-16"),
+        ("# x [mm] z [um]\n\n", " ", "utf-8-sig"),
+        ("x;z\nmm;µm\n", ";", "utf-8"),
+        ("No,x [mm],z [um]\n", ",", "utf-8"),
+        ("X;Y;valid\n[mm];[um];[1/0]\n", ";", "utf-8"),
+    ],
+)
+def test_units_of_points_may_stand_in_their_heading(files, tmp_path, head, separator, encoding):
+    """They were passed over: with the unit of the lengths for both heights were a thousand times too large, without a word."""
+    more = {"N": lambda i, row: [str(i + 1), *row], "X": lambda i, row: [*row, "1"]}.get(head[0], lambda i, row: row)
+    rows = (separator.join(more(i, [f"{0.02 * i:.6f}", f"{i % 7:.6f}"])) for i in range(200))
+    (tmp_path / "line.csv").write_text(head + "\n".join(rows) + "\n", encoding=encoding)
+    scan = read_surface(tmp_path / "line.csv")
+    assert scan.units == "lengths in mm as the file says, heights in µm as the file says"
+    assert scan.sizes == pytest.approx((4e-3,)) and np.ptp(scan.heights) == pytest.approx(6e-6)
+    with pytest.raises(hystrip.InputError, match="unit: got 'mm'; .* says: lengths in mm, heights in µm"):
+        read_surface(tmp_path / "line.csv", unit="mm")
+
+
+@pytest.mark.parametrize(
+    ("unit", "options", "height"),
+    [("(nm)", {}, 6e-9), ("", {"unit": "nm"}, 6e-9), ("", {"unit": "um", "height_factor": 1e-3}, 6e-9), ("", {}, None)],
+)
+def test_heights_of_a_profilometer_take_the_unit_that_is_given(files, tmp_path, unit, options, height):
+    """Its reader takes heights without a unit to be in that of the lengths, whatever was given and said."""
+    (tmp_path / "line.csv").write_text(DEKTAK.format(unit) + "".join(f"{20 * i},{i % 7},\n" for i in range(200)))
+    if height is None:
+        with pytest.raises(hystrip.InputError, match="unit: got None; .* of the heights"):
+            read_surface(tmp_path / "line.csv")
+        return
+    scan = read_surface(tmp_path / "line.csv", **options)
+    assert scan.sizes == pytest.approx((4e-3,)) and np.ptp(scan.heights) == pytest.approx(height)
+    assert scan.units.startswith("lengths in µm as the file says, heights in ")
 
 
 @pytest.mark.parametrize(
@@ -276,8 +318,9 @@ def test_a_byte_order_mark_hides_no_number(files, tmp_path):
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\xef\xbb\xbf", b"").replace(old, new))
         scan = read_surface(path, **SIZES, unit="um")
         assert np.array_equal(scan.heights, plain.heights)
-    (tmp_path / "line.xyz").write_text("# Lateral units: um\n# Value units: nm\n0 1\n1 2\n2 1\n", encoding="utf-8-sig")
-    assert _in_comments(tmp_path / "line.xyz") == ("nm", "µm")
+    line = "# Lateral units: um\n# Value units: nm\n" + "".join(f"{i} {i % 3}\n" for i in range(9))
+    (tmp_path / "line.xyz").write_text(line, encoding="utf-8-sig")
+    assert read_surface(tmp_path / "line.xyz").units == "lengths in µm as the file says, heights in nm as the file says"
 
 
 @pytest.mark.parametrize(

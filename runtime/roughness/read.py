@@ -78,11 +78,13 @@ def read_surface(
             options: dict[str, Any] = {} if found.index == reader.default_channel.index else {"channel_index": found.index}
             options |= _lengths(found, sizes, where)
             units = units_of(reader, found, unit, where)
-            if found.unit is None:
-                options["unit"] = units.heights
             if height_factor is not None:
                 options["height_scale_factor"] = _factor(height_factor, where)
                 units = replace(units, said=f"{units.said}, times {height_factor:g}")
+            if found.unit is None:
+                options["unit"] = units.heights
+            elif found.height_scale_factor is None and (per_unit := units.heights_in(found.unit)) != 1:
+                options["height_scale_factor"] = per_unit * options.get("height_scale_factor", 1.0)
             return _even(reader.topography(**options), units, where)
     except InputError:
         raise

@@ -1,5 +1,8 @@
 """Units of a scan: those that its file states, and the one that is given for what it does not."""
 
+import codecs
+import contextlib
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,6 +13,10 @@ from ..extras import require
 
 #: of coordinates, which SurfaceTopography takes only if both are stated
 _OF_COORDINATES = {key: re.compile(rf"#\s*{key} units:\s*(\S+)") for key in ("Lateral", "Value")}
+#: what stands between the numbers of a point, and beside units in names such as ``x [mm]``, ``z/um``, ``Lateral um``
+_BETWEEN_NUMBERS, _BESIDE_UNITS = re.compile(r"[\s,;]+"), re.compile(r"[\s()\[\]{},;:=/#]+")
+#: bytes of a file in which numbers begin
+_HEAD = 100_000
 
 
 @dataclass(frozen=True)
@@ -26,6 +33,10 @@ class Units:
     heights: str
     factors: tuple[float, ...]
     said: str
+
+    def heights_in(self, unit: str) -> float:
+        """What heights are multiplied with to be in another unit."""
+        return float(_module().get_unit_conversion_factor(self.heights, unit))
 
 
 def units_of(reader: Any, channel: Any, given: str | None, where: str) -> Units:
@@ -73,30 +84,55 @@ def _stated(reader: Any, channel: Any, where: str) -> tuple[str | None, list[str
         lengths = [each and _known(each, where) for each in both[: channel.dim]]
     elif reader.format() == "asc":
         lengths = [heights or "nm"] * channel.dim
-    elif reader.format() == "xyz":  # both stated, the reader has converted one to the other
-        heights, lateral = _in_comments(where)
-        lengths = [lateral] * channel.dim
+    elif reader.format() == "xyz":  # both stated, the reader may have converted one to the other
+        heights, lengths = _above_points(where, channel)
     return heights, lengths
 
 
-def _in_comments(where: str) -> tuple[str | None, str | None]:
+def _above_points(where: str, channel: Any) -> tuple[str | None, list[str | None]]:
+    """Units of the heights and of the lengths of points as text: in remarks, or in the line above the numbers."""
     found: dict[str, str] = {}
-    with open(where, encoding="utf-8-sig", errors="replace") as file:
-        for line in file:
-            if not line.startswith("#"):
-                break
-            for key, pattern in _OF_COORDINATES.items():
-                if match := pattern.match(line):
-                    found[key] = _known(match[1], where)
-    return found.get("Value"), found.get("Lateral")
+    heading = ""
+    for line in itertools.takewhile(_lacks_numbers, _lines(where)):
+        for key, pattern in _OF_COORDINATES.items():
+            if match := pattern.match(line):
+                found[key] = _known(match[1], where)
+        heading = line.strip() and line or heading
+    if found:
+        return found.get("Value"), [found.get("Lateral")] * channel.dim
+    units = [_known(word, where) for word in re.split(_BESIDE_UNITS, heading) if _is_unit(word)]
+    if len(units) == channel.dim + 1:  # one for each column
+        return units[-1], [*units[:-1]]
+    return None, [channel.unit] * channel.dim
+
+
+def _lines(where: str) -> list[str]:
+    """The first lines of a text file."""
+    with open(where, "rb") as file:
+        head = file.read(_HEAD)
+    for encoding in ("utf-16",) if head[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else ("utf-8-sig", "latin-1"):
+        with contextlib.suppress(UnicodeDecodeError):  # a character that is cut at the end is none
+            return codecs.getincrementaldecoder(encoding)().decode(head).splitlines()
+    return []
+
+
+def _lacks_numbers(line: str) -> bool:
+    """Whether a line is none of the coordinates of a point."""
+    words = _BETWEEN_NUMBERS.split(line.strip())
+    try:
+        return len([float(word) for word in words if word]) < 2
+    except ValueError:
+        return True
 
 
 def _known(unit: Any, where: str) -> str:
-    units = _module()
-    name = units.mangle_length_unit_utf8(unit) if isinstance(unit, str) else unit
-    if not isinstance(unit, str) or name not in units.length_units:
-        raise InputError(f"{where}, unit", unit, f"one of {', '.join(units.length_units)}")
-    return str(name)
+    if not _is_unit(unit):
+        raise InputError(f"{where}, unit", unit, f"one of {', '.join(_module().length_units)}")
+    return str(_module().mangle_length_unit_utf8(unit))
+
+
+def _is_unit(word: Any) -> bool:
+    return isinstance(word, str) and _module().mangle_length_unit_utf8(word) in _module().length_units
 
 
 def _once(words: Sequence[Any]) -> list[Any]:
