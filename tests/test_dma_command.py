@@ -66,6 +66,16 @@ def test_each_set_has_its_own_files(run, tmp_path):
     assert "set 23 °C/b" in added[0].read_text(encoding="utf-8")
 
 
+def test_a_pressure_keeps_its_digits_and_a_band_its_ends(run, tmp_path):
+    """They were rounded to six, and three: a narrow band had one end, and the scene was refused after the work."""
+    (tmp_path / "narrow.csv").write_text("f [Hz],E' [MPa],E'' [MPa]\n10,1,0.1\n10.01,1,0.1\n10.02,1,0.1\n")
+    given = ("--nu", 0.5, "--terms", 1, "--pressure", "1.23456789 MPa", "--no-plot")
+    status, _, err = run("fit", "narrow.csv", *given)
+    assert (status, err) == (0, "")
+    scene = load_scene(tmp_path / "hystrip-out" / "narrow.fitted.toml")
+    assert scene.pressure == 1234567.89 and scene.material.fit.edges == (10.0, 10.02)
+
+
 def test_several_temperatures_leave_nothing(run, tmp_path):
     text = table("T [degC];f [Hz];E' [Pa];E'' [Pa]", *((f"{20 + 0.5 * i};", 1.0) for i in range(9)))
     (tmp_path / "ramp.csv").write_text(text, encoding="utf-8")

@@ -50,7 +50,7 @@ def material_tables(
     if material.shift is not None:
         tables["material.shift"] = shift_table(material.shift)
     if series.fit is not None:
-        tables["material.fit"] = {"edges": _rounded(series.fit.edges), "rms": _rounded(series.fit.rms)}
+        tables["material.fit"] = {"edges": series.fit.edges, "rms": [float(f"{each:.3g}") for each in series.fit.rms]}
     return tables, comment
 
 
@@ -58,7 +58,3 @@ def shift_table(shift: Shift) -> dict[str, Any]:
     """Keys of ``[material.shift]``."""
     own = {"C_1": shift.C_1, "C_2": shift.C_2} if isinstance(shift, WLF) else {"E_a": shift.E_a}
     return {"model": type(shift).__name__, **own, "T_ref": shift.T_ref, "vertical": shift.vertical}
-
-
-def _rounded(values: tuple[float, ...]) -> list[float]:
-    return [float(f"{each:.3g}") for each in values]

@@ -50,12 +50,12 @@ def with_solver_seen_from(folder: Any, text: str, source: Any) -> str:
 
 
 def with_settings(text: str, values: Mapping[str, Any]) -> str:
-    """The scene with other values of keys that stand above its tables, text or numbers."""
+    """The scene with other values of keys that stand above its tables: text, or numbers with all their digits."""
     for key, value in values.items():
         lines = text.splitlines()
         top = next((number for number, line in enumerate(lines) if _HEADER.match(line)), len(lines))
         old = [number for number, line in enumerate(lines[:top]) if re.match(rf"\s*{key}\s*=", line)]
-        new = f"{key} = {_value(value)}"
+        new = f"{key} = {_value(value) if isinstance(value, str) else repr(value)}"
         lines = [*lines[: old[0]], new, *lines[old[0] + 1 :]] if old else [new, *lines]
         text = _same_but(text, "\n".join(lines) + "\n", key)
     return text
