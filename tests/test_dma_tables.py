@@ -64,6 +64,8 @@ EXPORTS = {
     "by commas, point elsewhere": "f [Hz];E' [kPa];E'' [kPa]\n0.5;1,500;250\n5;3,000;750\n",
     "three digits between commas": "f [Hz],E' [MPa],E'' [kPa]\n0.5,1.500,250\n5,3,750\n".replace("0.5", "0.500"),
     "names behind the sign of a remark": table("# f [Hz];E' [MPa];E'' [MPa]"),
+    "units behind it too": table("# f;E';E''\n# Hz;MPa;MPa"),
+    "blanks, units behind it too": "% f E' E''\n%Hz MPa MPa\n5.0e-01 1.5e+00 2.5e-01\n5.0e+00 3.0e+00 7.5e-01\n",
     "names in a remark and again": "# f;E';E''\n" + table("f [Hz];E' [MPa];E'' [MPa]"),
     "names again above each part": "[step]\nsweep 1\n"
     + table("f;E';E''\nHz;MPa;MPa", HZ[:1], MPA[:1])
@@ -129,6 +131,11 @@ REFUSED = {
     "frequencies that disagree": ("f [Hz];E';E''\nrad/s;MPa;MPa\n1;2;1\n2;3;2\n", "got 'rad/s'; allowed: 'Hz' as in the name"),
     "degrees that disagree": ("f;E';E'';T [K]\nHz;MPa;MPa;°C\n1;2;1;20\n2;3;2;20\n", "got '°C'; allowed: 'K' as in the name"),
     "compliances": ("f [Hz];J' [1/MPa];J'' [1/MPa]\n1;2;1\n2;1;.5\n", "moduli where \"J' .*\" is a compliance: E' = J'/"),
+    "a row behind the sign of a remark": (
+        "# " + HEAD + "#1;2;3\n" + rows((1, 2, 1), (2, 3, 2)),
+        "line 2, .*got '#1'; .*a number",
+    ),
+    "such a row between blanks": ("# f E' E''\n#Hz Pa Pa\n1 2 1\n#1 2 3\n2 3 2\n", "line 4, .*got '#1'; .*a number"),
     "one frequency": (HEAD + "5;2;0.3\n5;2.1;0.31\n", "frequency: got '2 rows of numbers, at 5 Hz alone'; .*two different"),
     "points or thousands": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n", "got '2.100'; .*read in one way"),
     "both in threes": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;1,210\n2;2.200;220\n", "read in one way"),

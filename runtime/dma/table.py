@@ -76,7 +76,7 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
             names = [cells[0].lstrip("#% "), *cells[1:]]
             count, words = lacking(names if marked else cells)
             if not count:
-                below, times = _joined(cells, rows[at + 1 :])
+                below, times = _joined(cells, _unmarked(rows[at + 1 :]) if marked else rows[at + 1 :])
                 return _checked(Table(where, names, below, _SEPARATORS[separator], line, tuple(lines[: line - 1]), times))
             if count < nearest[0]:
                 nearest = (count, f"in this row of names also {words}", line, cells)
@@ -89,7 +89,8 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
             fits = any(len(cells) == len(names) and _numeric(cells, 3) for cells in head)
             fits &= all(lacking(cells)[0] for cells in head)  # or it is a remark above the names
             if fits and not count:
-                below, times = _joined(names, [(line, _cells(below, len(names))) for line, below in texts[at + 1 :]])
+                rows = [(line, _cells(below, len(names))) for line, below in texts[at + 1 :]]
+                below, times = _joined(names, _unmarked(rows, len(names)) if marked else rows)
                 return _checked(Table(where, names, below, _BLANKS, line, tuple(lines[: line - 1]), times))
             if fits and count < nearest[0]:
                 nearest = (count, f"in this row of names also {words}", line, names)
@@ -106,6 +107,18 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
     allowed = "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta"
     allowed += f"; separated by comma, semicolon or tab, or by blanks; among the first {_PREAMBLE} rows"
     raise InputError(where, first, allowed)
+
+
+def _unmarked(rows: list[tuple[int, list[str]]], width: int = 0) -> list[tuple[int, list[str]]]:
+    """Rows below names behind the sign of a remark: one of units has the sign, too. A row of numbers keeps it: it is no data.
+
+    ``width`` : of rows that blanks part, so many names"""
+    for line, cells in rows[:1]:
+        units = [cells[0].lstrip("#% "), *cells[1:]]
+        units = _cells(" ".join(units).strip(), width) if width else units
+        if not _numeric(units):
+            return [(line, units), *rows[1:]]
+    return rows
 
 
 def _joined(names: list[str], rows: list[tuple[int, list[str]]]) -> tuple[list[tuple[int, list[str]]], int]:
