@@ -62,14 +62,22 @@ def test_the_command_line_finds_the_scheduler(cluster, tmp_path):
     assert len(values) == 4 and (values["mu"] > 0).all()
 
 
-def test_no_scheduler_is_one_sentence(tmp_path):
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense"])
+def test_no_scheduler_is_one_sentence(tmp_path, address):
+    """Without so much as an address, too: the client waited 20 s for itself as it was deleted, and ended with a traceback."""
     (tmp_path / "s.toml").write_text(SCENE)
     # the command line, but for waiting a second where it waits ten
-    impatient = "import distributed as d; C = d.Client; d.Client = lambda at, timeout, **o: C(at, timeout=timeout / 10, **o)"
-    code = f"{impatient}; from hystrip.commands.entry import main; main()"
-    command = [sys.executable, "-c", code, "sweep", "s.toml", "--scheduler", "tcp://127.0.0.1:9"]
+    impatient = "def __init__(self, at, timeout, **o): super().__init__(at, timeout=1, **o)"
+    code = f"import distributed as d\nclass Client(d.Client):\n    {impatient}\nd.Client = Client\n"
+    code += "from hystrip.commands.entry import main\nmain()"
+    command = [sys.executable, "-c", code, "sweep", "s.toml", "--scheduler", address]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "no Dask scheduler answers" in done.stderr and "Traceback" not in done.stderr, done.stderr
+
+
+def test_a_cluster_without_tls_set_up_is_one_sentence():
+    with pytest.raises(hystrip.HystripError, match="--scheduler tls://.*answers .TLS expects"), dask("tls://127.0.0.1:9"):
+        pass
 
 
 def test_a_batch_that_kills_every_worker_is_one_sentence(monkeypatch):

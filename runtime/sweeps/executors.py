@@ -107,9 +107,14 @@ def local(workers: int) -> Iterator[tuple[Executor, int]]:
 def dask(address: str) -> Iterator[tuple[Executor, int]]:
     """The executor of a Dask cluster at ``address`` and how many batches to keep in flight."""
     distributed = require("distributed", "dask", "a Dask scheduler")
+
+    class Client(distributed.Client):
+        def __del__(self) -> None:
+            """Closed below; one that could not connect would wait for itself, and end with a traceback."""
+
     try:
-        client = distributed.Client(address, timeout=10, set_as_default=False)
-    except (OSError, ValueError, TimeoutError) as error:
+        client = Client(address, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:  # the last without a configuration of TLS
         raise HystripError(f"--scheduler {address}: no Dask scheduler answers ({str(error) or type(error).__name__})") from None
     with _quiet("distributed", "distributed.client", "tornado.application"):
         try:
