@@ -4,8 +4,12 @@ from pathlib import Path
 
 import typer
 
-from .options import out_option
+from .options import as_options, out_option
 from .output import say, say_written
+
+_OPTIONS = {each: f"--{each}" for each in ("over", "batch", "workers", "scheduler")} | {
+    "workers, executor, scheduler": "--workers, --scheduler"
+}  # fmt: skip
 
 
 def command(
@@ -49,7 +53,7 @@ def command(
     refuse_other_origin(out, more, scene)
     swept = over_of(over, is_half_space(parse_toml(text))) if over else {}
     try:
-        with progress("sweeping", rate=True) as report:
+        with progress("sweeping", rate=True) as report, as_options(_OPTIONS):
             done = sweep(
                 scene, over=swept, out=out, workers=workers, scheduler=scheduler, batch=batch,
                 restart=restart, allow_solver=allow_solver, progress=report,
