@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .tables import over_strips
+
 if TYPE_CHECKING:
     from .level_solution import LevelSolution
     from .result import Result
@@ -41,7 +43,6 @@ def of_result(result: Result) -> Shown:
     """A :class:`hystrip.Result`."""
     size, counts = np.size(result.mu), result.counts
     closed, off = counts["points_in_closed_form"], counts["points_below_pull_off"]
-    panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     work = f"{counts['strips_solved']} strips solved" if counts["strips_solved"] else "no strip to solve"
     return f"Result: {_count(size, 'point')}, {_count(len(result.levels), 'level')}", [
         ("mu", f"{span(result.mu)}, error at most {_most(result.error_estimate)}{_missed(result)}"),
@@ -49,7 +50,10 @@ def of_result(result: Result) -> Shown:
         ("pressure", span(result.pressure, "Pa")),
         ("velocity", span(result.velocity, "m/s")),
         ("real contact", percent(result.contact_fraction)),
-        ("asked", f"{result.branch}, {result.edge}, rtol {result.rtol:g}{panels}; {model_name(result.material)}"),
+        (
+            "asked",
+            f"{result.branch}, {result.edge}, rtol {result.rtol:g}{over_strips(result.strips)}; {model_name(result.material)}",
+        ),
         ("work", f"{work}, {_count(closed, 'point')} in closed form, {off} below pull-off"),
     ]
 

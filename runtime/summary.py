@@ -10,7 +10,7 @@ from .inputs.half_space import HalfSpace
 from .inputs.materials import parameters
 from .orbit.foundation import Foundation, foundation_of
 from .plausibility import excited
-from .tables import shares
+from .tables import over_strips, shares
 
 #: relaxation times that are listed one by one
 _SHOWN = 3
@@ -48,13 +48,12 @@ def _inputs(result: Any) -> list[str]:
     shift = getattr(m, "shift", None)  # a material at a temperature has none
     at = f", as at T_ref = {shift.T_ref:.5g} K" if shift else ""
     at = at if result.temperature is None else f", at {result.temperature:.5g} K"
-    panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     given = f"penetration {span(result.penetration, 'm')}, " if result.load == "penetration" else ""
     at_load = f"{given}pressure {span(result.pressure, 'Pa')}"
     return [
         f"material   {model_name(m)}: {_parameters(m)}" + at,
         f"adhesion   {sticky}",
-        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
+        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{over_strips(result.strips)}",
         f"points     {np.size(result.mu)}: {at_load}, velocity {span(result.velocity, 'm/s')}",
         *([f"excited    {known}"] if known else []),
         *(f"note       {note}" for note in result.notes),

@@ -84,7 +84,6 @@ def about_result(result: Result, scene: str = "") -> list[str]:
     """Lines above the table of a result: version, units, scene, inputs, tolerance."""
     from .inputs.as_json import adhesion_text, levels_text, material_text
 
-    panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [
         *about_version(),
         *([f"scene: {scene}"] if scene else []),
@@ -92,8 +91,13 @@ def about_result(result: Result, scene: str = "") -> list[str]:
         *([] if result.temperature is None else [f"temperature: {result.temperature:g} K, at which the material is given"]),
         f"adhesion: {adhesion_text(result.adhesion)}",
         f"levels: {levels_text(result.levels)}",
-        f"edge {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
+        f"edge {result.edge}, branch {result.branch}, rtol {result.rtol:g}{over_strips(result.strips)}",
     ]
+
+
+def over_strips(strips: int | None) -> str:
+    """What to say behind the tolerance where level 1 was averaged over equal strips."""
+    return "" if strips is None else f", level 1 over {strips} equal strips"
 
 
 def cell(value: Any) -> str:

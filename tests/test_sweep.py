@@ -75,9 +75,11 @@ def test_grid_is_every_combination(scene, tmp_path):
 
 
 def test_the_table_says_what_was_not_swept(scene, tmp_path):
+    scene.write_text(f"strips = 8\n{scene.read_text()}")
     lines = hystrip.sweep(scene, out=tmp_path).path.read_text().splitlines()
     (fixed,) = (line for line in lines if line.startswith("# fixed: "))
     assert "material.T_eps = 0.01, " in fixed and "levels[0].l = 1e-05, " in fixed and "material.K" not in fixed
+    assert "# edge continuous, branch unloading, rtol 1e-06, level 1 over 8 equal strips" in lines  # as `hystrip solve` says
 
 
 def test_what_is_beyond_the_model_is_noted_once_with_its_first_row(scene, tmp_path):

@@ -18,7 +18,7 @@ from ..files import path_of, refuse_unwritable
 from ..inputs.checks import truth
 from ..origins import outputs_from, refuse_other_origin
 from ..scene.load import quantities
-from ..tables import about_version, write_csv
+from ..tables import about_version, over_strips, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
 from .executors import check_workers, dask, give_up, local, lost
@@ -282,7 +282,7 @@ def _about(plan: Plan) -> list[str]:
     """Lines above the table: version, units, scene, inputs that are not swept, tolerance."""
     base, swept = plan.base, [axis.key for axis in plan.axes]
     fixed = ", ".join(f"{key} = {float(each)!r}" for key, each in quantities(base) if key not in swept)
-    asked = f"edge {base['edge']}, branch {base['branch']}, rtol {base['rtol']:g}"
+    asked = f"edge {base['edge']}, branch {base['branch']}, rtol {base['rtol']:g}{over_strips(base['strips'])}"
     scene = f"scene: {base['title'] or plan.name}; over {', '.join(swept)}"
     return [*about_version(), scene, f"fixed: {fixed}", asked]
 
