@@ -32,7 +32,7 @@ def load(path: str | os.PathLike[str], kind: type[T], *, solver: Solver | None =
 @overload
 def load(path: str | os.PathLike[str], kind: None = None, *, solver: Solver | None = None) -> Any: ...
 def load(path: str | os.PathLike[str], kind: Any = None, *, solver: Solver | None = None) -> Any:
-    """Read a result that its ``save`` has written: equal to the bit, whatever version has written it.
+    """Read a result that its ``save`` has written: equal to the bit.
 
     Parameters
     ----------
