@@ -59,6 +59,8 @@ HEADS = {
     "lengths": "# Width: 0.02 mm\n# Height: 0.02 mm\n",
     "heights": "# Width: 20\n# Height: 20\n# Value units: µm\n",
     "both": "# Width: 20 µm\n# Height: 0.02 mm\n# Value units: um\n",
+    "heights in words": "Height [nm]\n",
+    "all in words": "# z in nm\n# Width: 0.02 mm\n# Height: 0.02 mm\n",
 }
 SIZES = {"sizes": (20.0, 20.0)}
 
@@ -83,6 +85,14 @@ def test_a_unit_stands_for_what_the_file_does_not_state(files, tmp_path, head, o
     scan = read_surface(text_scan(tmp_path / "scan.txt", head), **options)
     assert scan.units == said and said in scan.report()
     assert scan.sizes == pytest.approx((2e-5, 2e-5)) and scan.heights.std() / eq4(LEVELS, 2e-5, 160).std() == pytest.approx(1)
+
+
+@pytest.mark.parametrize(("head", "options"), [("heights in words", SIZES | {"unit": "um"}), ("all in words", {})])
+def test_a_unit_of_heights_may_stand_in_words_above_them(files, tmp_path, head, options):
+    """It was passed over: the unit given for lengths held for them, too, and they were a thousand times too large."""
+    scan = read_surface(text_scan(tmp_path / "scan.txt", head, 1e9), **options)
+    assert scan.units.endswith("heights in nm as the file says") and scan.sizes == pytest.approx((2e-5, 2e-5))
+    assert scan.heights.std() / eq4(LEVELS, 2e-5, 160).std() == pytest.approx(1)
 
 
 def test_a_unit_of_lengths_leaves_stated_heights_alone(files, tmp_path):

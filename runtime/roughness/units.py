@@ -15,6 +15,7 @@ from ..extras import require
 _OF_COORDINATES = {key: re.compile(rf"#\s*{key} units:\s*(\S+)") for key in ("Lateral", "Value")}
 #: what stands between the numbers of a point, and beside units in names such as ``x [mm]``, ``z/um``, ``Lateral um``
 _BETWEEN_NUMBERS, _BESIDE_UNITS = re.compile(r"[\s,;]+"), re.compile(r"[\s()\[\]{},;:=/#]+")
+_OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\b\s*(?:[\[({/:,]|\bin\b)?\s*([^\W\d_]+)", re.IGNORECASE)
 #: bytes of a file in which numbers begin
 _HEAD = 100_000
 
@@ -86,6 +87,8 @@ def _stated(reader: Any, channel: Any, where: str) -> tuple[str | None, list[str
         lengths = [heights or "nm"] * channel.dim
     elif reader.format() == "xyz":  # both stated, the reader may have converted one to the other
         heights, lengths = _above_points(where, channel)
+    if heights is None and reader.format() == "asc":
+        heights = _above_matrix(where)
     return heights, lengths
 
 
@@ -104,6 +107,13 @@ def _above_points(where: str, channel: Any) -> tuple[str | None, list[str | None
     if len(units) == channel.dim + 1:  # one for each column
         return units[-1], [*units[:-1]]
     return None, [channel.unit] * channel.dim
+
+
+def _above_matrix(where: str) -> str | None:
+    """Unit of the heights of a matrix as text that a line above it states in words: ``Height [nm]``, ``z in um``."""
+    lines = itertools.takewhile(_lacks_numbers, _lines(where))
+    words = [match[1] for match in map(_OF_HEIGHTS.search, lines) if match]
+    return next((_known(word, where) for word in words if _is_unit(word)), None)
 
 
 def _lines(where: str) -> list[str]:
