@@ -225,7 +225,8 @@ def _text(where: str) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError(where, where, "a text file (UTF-8, UTF-16 with its byte order mark, or Windows-1252)")
+    kinds = "UTF-8, UTF-16 with its byte order mark, or Windows-1252"
+    raise InputError(where, where, f"a text file ({kinds}); of a spreadsheet, one sheet saved as CSV")
 
 
 def _rows(where: str, lines: list[str], separator: str, whole: bool) -> list[tuple[int, list[str]]]:
