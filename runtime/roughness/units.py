@@ -15,7 +15,7 @@ from ..extras import require
 _OF_COORDINATES = {key: re.compile(rf"#\s*{key} units:\s*(\S+)") for key in ("Lateral", "Value")}
 #: what stands between the numbers of a point, and beside units in names such as ``x [mm]``, ``z/um``, ``Lateral um``
 _BETWEEN_NUMBERS, _BESIDE_UNITS = re.compile(r"[\s,;]+"), re.compile(r"[\s()\[\]{},;:=/#]+")
-_OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\b\s*(?:[\[({/:,]|\bin\b)?\s*([^\W\d_]+)", re.IGNORECASE)
+_OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\b[\s\[({/:,]*(?:in\b[\s\[({]*)?([^\W\d_]+)", re.IGNORECASE)
 #: bytes of a file in which numbers begin
 _HEAD = 100_000
 
