@@ -10,7 +10,7 @@ import numpy as np
 
 from .errors import InputError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import SMALLEST, choice, number, numbers, sequence
+from .inputs.checks import SMALLEST, choice, integer, number, numbers, sequence
 from .inputs.materials import check_edge, check_material, parameters
 from .inputs.surface import Level
 
@@ -70,11 +70,8 @@ def check_single(material, adhesion) -> None:
 
 def check_strips(strips) -> int | None:
     """``strips`` as an int >= 1, or None."""
-    if strips is None:
-        return None
-    if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or not 1 <= strips <= 1_000_000:
-        raise InputError("strips", strips, "an integer >= 1, at most 1000000, or None for adaptive panels")
-    return int(strips)
+    allowed = "an integer >= 1, at most 1000000, or None for adaptive panels"
+    return None if strips is None else integer("strips", strips, 1, 1_000_000, allowed)
 
 
 def check_rtol(rtol) -> float:
@@ -101,9 +98,7 @@ def point_index(at: int | tuple[int, ...], shape: tuple[int, ...]) -> int:
 
 def check_level_number(level, levels: int) -> int:
     """The number of a level, the first being 1, as an int."""
-    if isinstance(level, bool) or not isinstance(level, (int, np.integer)) or not 1 <= level <= levels:
-        raise InputError("level", level, f"the number of a level, 1 to {levels}")
-    return int(level)
+    return integer("level", level, 1, levels, f"the number of a level, 1 to {levels}")
 
 
 def check_on_level(material, adhesion, level, V, edge, branch, rtol) -> tuple[Material, np.ndarray, Level, str, str, float]:

@@ -303,7 +303,8 @@ def test_local_processes_given_up_leave_no_thread_behind(at_work):
 
 
 def test_batches_and_executors_give_the_same_bytes(scene, tmp_path):
-    first = hystrip.sweep(scene, out=tmp_path / "a").path.read_bytes()
+    # of a calculation numbers are NumPy's
+    first = hystrip.sweep(scene, out=tmp_path / "a", workers=np.int64(1), batch=np.int64(20)).path.read_bytes()
     with ThreadPoolExecutor(2) as threads:
         assert hystrip.sweep(scene, out=tmp_path / "b", executor=threads).path.read_bytes() == first
     assert hystrip.sweep(scene, out=tmp_path / "c", workers=2).path.read_bytes() == first

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import number, numbers, sequence
+from ..inputs.checks import integer, number, numbers, sequence
 from ..inputs.fitted import POOR, FittedBand
 from ..inputs.prony import MOST_TIMES
 from .modulus import DynamicModulus
@@ -85,10 +85,9 @@ def fit_prony(
         shown = {key: each for key, each in given.items() if each is not None}
         raise InputError("accuracy, terms, per_decade, times", shown, "one of them")
     if terms is not None:
-        if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= MOST_TIMES:
-            raise InputError("terms", terms, f"an integer from 1 to {MOST_TIMES}")
-        _refuse_too_many(int(terms), 2 * int(terms) + 1, data)
-        series = _series(data, _placed(Placement(data), int(terms)), True)
+        terms = integer("terms", terms, 1, MOST_TIMES, f"an integer from 1 to {MOST_TIMES}")
+        _refuse_too_many(terms, 2 * terms + 1, data)
+        series = _series(data, _placed(Placement(data), terms), True)
     elif times is not None:
         offered = np.unique(np.atleast_1d(numbers("times", times, "s", 0, strict=True)))
         if not offered.size:

@@ -66,6 +66,13 @@ def number(field: str, value: Any, unit: str, minimum: float = -np.inf, strict: 
     return float(array)
 
 
+def integer(field: str, value: Any, least: int, most: float, allowed: str) -> int:
+    """``value`` as an int from ``least`` to ``most``; else ``InputError`` with what is ``allowed``, in words."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+        raise InputError(field, value, allowed)
+    return int(value)
+
+
 def sequence(field: str, values: Any, allowed: str) -> list[Any]:
     """The entries of a list, a tuple, an array or anything else in an order and of a known length, else ``InputError``."""
     known = hasattr(values, "__len__") and hasattr(values, "__iter__")

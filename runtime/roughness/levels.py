@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import choice, number, numbers
+from ..inputs.checks import choice, integer, number, numbers
 from ..inputs.surface import Level
 from .scan import Scan
 
@@ -173,7 +173,5 @@ def _spread(scan: Scan, count: int | None, ratio: float | None, longest: Any, sh
         if bands > 20:
             raise InputError("ratio", ratio, "a ratio that gives at most 20 bands")
         return np.append(high / ratio ** np.arange(bands), low)
-    count = 2 if count is None else count
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 1 <= count <= 20:
-        raise InputError("count", count, "an integer from 1 to 20")
-    return np.geomspace(high, low, int(count) + 1)
+    count = integer("count", 2 if count is None else count, 1, 20, "an integer from 1 to 20")
+    return np.geomspace(high, low, count + 1)

@@ -9,8 +9,9 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from typing import Any
 
-from ..errors import HystripError, InputError
+from ..errors import HystripError
 from ..extras import require
+from ..inputs.checks import integer
 
 
 class InProcess(Executor):
@@ -75,11 +76,10 @@ def give_up(executor: Executor, futures: Iterable[Future]) -> None:
             future.cancel()
 
 
-def check_workers(workers: int) -> None:
-    """``InputError`` unless so many local processes can be started."""
+def check_workers(workers: int) -> int:
+    """``workers`` as an int; ``InputError`` unless so many local processes can be started."""
     most = max(4 * (os.cpu_count() or 1), 60)  # Windows waits for no more than 61 processes at once
-    if isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= most:
-        raise InputError("workers", workers, f"an integer >= 1, local processes, at most {most} on this machine")
+    return integer("workers", workers, 1, most, f"an integer >= 1, local processes, at most {most} on this machine")
 
 
 @contextlib.contextmanager

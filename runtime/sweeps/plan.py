@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arguments import check_levels
 from ..errors import InputError
-from ..inputs.checks import numbers
+from ..inputs.checks import integer, numbers
 from ..inputs.half_space import check_poisson
 from ..inputs.materials import check_edge, kernel_of
 from ..inputs.shift import check_exponents
@@ -156,8 +156,8 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     batch = settings["batch"] if batch is None else batch
     if not isinstance(combine, str) or combine not in ("grid", "list"):
         raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
-    if batch is not None and (isinstance(batch, bool) or not isinstance(batch, int) or batch < 1):
-        raise InputError("batch", batch, "an integer >= 1, points that are solved and stored together")
+    if batch is not None:
+        batch = integer("batch", batch, 1, math.inf, "an integer >= 1, points that are solved and stored together")
     half_space = is_half_space(values)
     axes = tuple(Axis(key, each, unit_of(key, half_space)) for key, each in quantities(values) if each.ndim)
     _refuse_hopeless(values, {axis.key for axis in axes})

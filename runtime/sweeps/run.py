@@ -176,7 +176,7 @@ def sweep(
     refuse_other_origin(folder, [done], scene)
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError("executor", executor, "anything with the concurrent.futures interface")
-    check_workers(workers)
+    workers = check_workers(workers)
     if sum((workers != 1, executor is not None, scheduler is not None)) > 1:
         raise InputError("workers, executor, scheduler", (workers, executor, scheduler), "one of them")
     where = contextlib.nullcontext((executor, 64)) if executor is not None else dask(scheduler) if scheduler else local(workers)
