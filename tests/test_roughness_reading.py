@@ -95,6 +95,33 @@ def test_a_unit_of_heights_may_stand_in_words_above_them(files, tmp_path, head, 
     assert scan.heights.std() / eq4(LEVELS, 2e-5, 160).std() == pytest.approx(1)
 
 
+SPIP = "# File Format = ASCII\n# x-pixels = 30\n# y-pixels = 40\n# x-length = 30\n# y-length = 40\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "unit", "size", "height", "said"),
+    [
+        ("# x-unit = um\n# y-unit = um\n", "nm", 1e-6, 1e-9, "lengths in µm as the file says, heights in nm as given"),
+        (
+            "# x-unit = um\n# y-unit = um\n# z-unit = nm\n",
+            None,
+            1e-6,
+            1e-9,
+            "lengths in µm as the file says, heights in nm as the file says",
+        ),
+        ("# Bit2nm = 2\n", None, 1e-9, 2e-9, "lengths in nm as the file says, heights in nm as the file says"),
+        ("", "nm", 1e-9, 1e-9, "lengths in nm as the file says, heights in nm as given"),
+    ],
+)
+def test_lengths_of_spip_are_in_nanometres_where_nothing_is_said(files, tmp_path, more, unit, size, height, said):
+    """They were said to be, and without a unit of the heights taken to be, where the file has another one."""
+    rows = (" ".join(f"{(3 * i + j) % 7}" for j in range(30)) for i in range(40))
+    (tmp_path / "scan.asc").write_text(SPIP + more + "\n".join(rows) + "\n", encoding="utf-8")
+    scan = read_surface(tmp_path / "scan.asc", unit=unit)
+    assert scan.units == said and scan.sizes == pytest.approx((30 * size, 40 * size))
+    assert np.ptp(scan.heights) == pytest.approx(6 * height)
+
+
 def test_a_unit_of_lengths_leaves_stated_heights_alone(files, tmp_path):
     scan = read_surface(text_scan(tmp_path / "scan.txt", "heights"), unit="mm")
     assert scan.sizes == pytest.approx((0.02, 0.02)) and np.ptp(scan.heights) == pytest.approx(np.ptp(eq4(LEVELS, 2e-5, 160)))

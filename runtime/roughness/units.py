@@ -16,6 +16,8 @@ _OF_COORDINATES = {key: re.compile(rf"#\s*{key} units:\s*(\S+)") for key in ("La
 #: what stands between the numbers of a point, and beside units in names such as ``x [mm]``, ``z/um``, ``Lateral um``
 _BETWEEN_NUMBERS, _BESIDE_UNITS = re.compile(r"[\s,;]+"), re.compile(r"[\s()\[\]{},;:=/#]+")
 _OF_HEIGHTS = re.compile(r"\b(?:heights?|z)\b[\s\[({/:,]*(?:in\b[\s\[({]*)?([^\W\d_]+)", re.IGNORECASE)
+#: of lengths in text of SPIP and Wyko, where it does not say
+_USUAL = {"spip": "nm", "wyko": "mm"}
 #: bytes of a file in which numbers begin
 _HEAD = 100_000
 
@@ -80,11 +82,10 @@ def _stated(reader: Any, channel: Any, where: str) -> tuple[str | None, list[str
     lengths = [heights] * channel.dim
     if lacks_lengths(channel):  # they are given, in the unit that is given
         lengths = [None] * channel.dim
-    elif reader.format() == "asc" and "format_flavor" not in header:  # the flavours have units by convention
-        both = header.get("xunit"), header.get("yunit") or header.get("xunit")
-        lengths = [each and _known(each, where) for each in both[: channel.dim]]
     elif reader.format() == "asc":
-        lengths = [heights or "nm"] * channel.dim
+        usual = _USUAL.get(header.get("format_flavor"))
+        both = header.get("xunit") or usual, header.get("yunit") or usual or header.get("xunit")
+        lengths = [each and _known(each, where) for each in both[: channel.dim]]
     elif reader.format() == "xyz":  # both stated, the reader may have converted one to the other
         heights, lengths = _above_points(where, channel)
     if heights is None and reader.format() == "asc":
