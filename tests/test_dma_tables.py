@@ -289,6 +289,8 @@ def test_utf_16_has_its_mark(tmp_path):
 def test_a_row_with_a_cell_that_says_there_is_no_number_is_left_out(tmp_path, none):
     found = read_dma(written(tmp_path, f"f [Hz];E' [MPa];E'' [MPa]\n0.5;1.5;0.25\n2;2;{none}\n5;3;0.75\n"))
     assert found.storage.tolist() == [1.5e6, 3e6] and "1 row left out: a number is missing" in found.columns
+    first = f"f [Hz];E' [MPa];E'' [MPa]\n{none};{none};{none}\n0.5;1.5;0.25\n5;3;0.75\n"  # it was taken for a row of units
+    assert read_dma(written(tmp_path, first)).storage.tolist() == [1.5e6, 3e6]
 
 
 def test_numbers_that_are_none_in_the_first_row_are_no_units(tmp_path):

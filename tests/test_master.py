@@ -9,6 +9,7 @@ import hystrip
 from hystrip.dma import DynamicModulus, fit_prony, master_curve, read_dma, read_isotherms
 from hystrip.dma.read import read_shift
 from hystrip.example import rubber
+from hystrip.plots.master import master_curve as draw
 from hystrip.scene import load_scene
 
 TIMES = np.geomspace(1e-9, 100, 34)
@@ -51,6 +52,8 @@ def test_shift_of_made_isotherms_comes_back(shift, vertical):
     assert np.abs(np.log10(found.a_T / shift.factor(T))).max() < 0.05
     assert np.abs(np.log10(found.shift.factor(T) / shift.factor(T))).max() < 0.05
     assert found.b_T == pytest.approx(shift.modulus_factor(T), rel=0.03) and found.rms < 0.012
+    labels = [panel.get_ylabel() for panel in draw(found).axes]
+    assert labels[:2] == ["modulus $E$ (Pa)", "modulus $E/b_T$ (Pa)" if vertical else "modulus $E$ (Pa)"]
     # standard errors say how uncertain the factors are
     off = np.log(found.a_T / shift.factor(T)) / np.maximum(found.a_T_error, 1e-3)
     assert np.sqrt(np.mean(off**2)) < 4

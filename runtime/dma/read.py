@@ -14,7 +14,7 @@ from .modulus import DynamicModulus
 from .pairs import PAIRS, in_range, moduli
 from .plausibility import remark_on, remark_on_loss, remark_on_repeats, remark_on_temperatures
 from .readings import Readings, celsius
-from .table import Table, as_number, decimal_comma, read_table
+from .table import NO_NUMBER, Table, as_number, decimal_comma, read_table
 
 #: columns that mean nothing without a unit
 _WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute", "phase")
@@ -150,7 +150,7 @@ def _with_units(table: Table, chosen: dict[str, Column]) -> tuple[dict[str, Colu
     """The columns with the units in the row below the names, if that is one of units; and the rows of numbers."""
     below = table.rows[0][1] if table.rows else []
     needed = [table.number(below, column.index) for role, column in chosen.items() if role in _WITH_UNIT]
-    if not any(needed) or any(_NUMBER.match(cell) for cell in needed):
+    if all(map(NO_NUMBER.fullmatch, needed)) or any(_NUMBER.match(cell) for cell in needed):
         return chosen, table.rows
     found = {role: with_unit_below(each, table.cell(below, each.index), table.where) for role, each in chosen.items()}
     return found, table.rows[1:]

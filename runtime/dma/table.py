@@ -28,8 +28,8 @@ _THOUSANDS = {sign: re.compile(rf"[-+]?[1-9]\d{{0,2}}(\{sign}\d{{3}})+") for sig
 #: thousands parted by blanks or apostrophes, which no decimal sign looks like
 _PARTED = re.compile(r"[-+\u2212]?\d{1,3}([\s'’])\d{3}(\1\d{3})*([.,]\d*)?([eE][-+]?\d+)?")
 _IN_BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[\])}>]")
-#: what stands where there is no number
-_NONE = re.compile(r"-+|\u2013|\u2014|n/?a|null|none", re.IGNORECASE)
+#: what stands where there is no number, if anything
+NO_NUMBER = re.compile(r"-*|\u2013|\u2014|n/?a|null|none", re.IGNORECASE)
 #: a number, in whatever signs
 _DIGITS = re.compile(r"[-+\u2212]?[\d.,\s'’]+([eE][-+]?\d+)?")
 
@@ -198,7 +198,7 @@ def decimal_comma(table: Table, cells: Sequence[str], given: str | None) -> bool
 
 def as_number(text: str, comma: bool) -> float:
     """The number in a cell, NaN for one that is empty or says that there is none. Raises ``ValueError``."""
-    text = "" if _NONE.fullmatch(text) else text.replace("\u2212", "-")
+    text = "" if NO_NUMBER.fullmatch(text) else text.replace("\u2212", "-")
     if comma:
         text = text.translate(_SWAPPED)
     if "," in text:  # between thousands alone

@@ -28,7 +28,8 @@ def master_curve(found: MasterCurve) -> Figure:
             panel.loglog(at.frequency, at.loss, marker="^", markerfacecolor="none", color=colour, **mark)
     kind = found.data.kind
     for panel, title in ((raw, "measured"), (master, f"master curve at {found.T_ref - 273.15:.1f} °C")):
-        panel.set_ylabel(f"modulus ${kind}$ (Pa)")
+        of_b_T = "/b_T" if panel is master and found.shift.vertical else ""
+        panel.set_ylabel(f"modulus ${kind}{of_b_T}$ (Pa)")
         panel.set_xlabel("frequency $f$ (Hz)" if panel is raw else "reduced frequency $a_T f$ (Hz)")
         panel.set_title(title, fontsize=8)
     raw.plot([], [], "o", color="0.3", label=f"storage ${kind}'$", **mark)
