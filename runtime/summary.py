@@ -106,12 +106,11 @@ def _friction(result: Any) -> list[str]:
             f"           largest at {at}: level shares " + ", ".join(percent(np.ravel(part)[top]) for part in shares(result))
         )
     error = np.ravel(result.error_estimate)
-    out.append(
-        f"error      of mu at most {np.nanmax(error):.1e} (estimate)"
-        if np.isfinite(error).any()
-        else "error      undefined: " + ("zero pressure" if mu.size else "no points")
-    )
-    return out
+    error = error[~np.isnan(error)]
+    if not error.size:
+        return [*out, "error      undefined: " + ("zero pressure" if mu.size else "no points")]
+    unknown = ", where the pressure may be zero" if np.isinf(error).any() else ""
+    return [*out, f"error      of mu at most {error.max():.1e} (estimate){unknown}"]
 
 
 def _contact(result: Any) -> list[str]:

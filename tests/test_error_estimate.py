@@ -241,6 +241,7 @@ def test_a_friction_coefficient_is_not_known_where_the_pressure_of_a_penetration
         found = hystrip.solve(material, adhesion, level, penetration=[D, -1e-5], rtol=1e-2, **how)
     assert found.error_estimate[0] == np.inf and np.isfinite(found.tau_error).all()
     assert found.pressure_error[0] >= abs(found.pressure[0]) > 0
+    assert "error      of mu at most inf (estimate), where the pressure may be zero\n" in found.summary()
     # where nothing touches the pressure is zero, friction as well, and there is no mu
     assert found.converged.tolist() == [False, True] and found.pressure[1] == 0 and np.isnan(found.mu[1])
 
