@@ -102,6 +102,15 @@ def test_bands_add_up():
     assert centre.levels[0].l == pytest.approx(4e-6)
 
 
+def test_the_largest_level_comes_first_whatever_its_band():
+    """Oblique waves make a level shorter than that of the next band: in the order of bands they were refused when solved."""
+    x, y = np.meshgrid(*2 * [2 * np.pi * np.arange(64) / 64])
+    heights = 1e-6 * np.cos(7 * x) * np.cos(7 * y) + 1e-6 * np.cos(9 * x)
+    found = levels_of(Scan(heights, (1e-3, 1e-3), periodic=True), edges=[1e-3, 1.25e-4, 5e-5])
+    assert [level.l for level in found.levels] == pytest.approx(np.sqrt(6 / 5) * np.array([1 / 9, 1 / np.sqrt(98)]) * 1e-3)
+    assert found.bands[:, 0].tolist() == [1.25e-4, 1e-3] and found.rms_height == pytest.approx([np.sqrt(0.5) * 1e-6, 0.5e-6])
+
+
 def test_lines_of_an_isotropic_surface_stand_for_it():
     heights, _ = isotropic()
     limits = {"count": 1, "shortest": 9e-7}

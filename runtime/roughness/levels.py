@@ -29,7 +29,7 @@ class RoughnessLevels:
     Attributes
     ----------
     levels : the largest first
-    bands : wavelengths between which each level takes its share, m, shape (levels, 2), longest first
+    bands : wavelengths between which each level takes its share, m, shape (levels, 2), each with its longest first
     rms_height : root mean square height in each band, m, (levels,); rms_gradient : the same of the gradient, (levels,)
     at_bounds : share of each band's variance that lies where the taper spreads a wave over a bound between two bands,
         from 0 to 1, (levels,); zero for a periodic scan
@@ -143,6 +143,9 @@ def levels_of(
     bands = np.stack((bounds[:-1], bounds[1:]), axis=1)[kept]
     height2, gradient2, at_bounds = height2[kept], gradient2[kept], add(variance * near)[kept] / height2[kept]
     k = np.sqrt(gradient2 / (GRADIENT * height2)) if wavelength == "gradient" else 2 * np.pi / np.sqrt(bands.prod(axis=1))
+    # oblique waves of a band may be shorter than those of the next, of which levels are solved the largest first
+    order = np.argsort(k, kind="stable")
+    k, bands, height2, gradient2, at_bounds = (each[order] for each in (k, bands, height2, gradient2, at_bounds))
     levels = tuple(Level(l=2 * np.pi / each, h=np.sqrt(each2 / VARIANCE)) for each, each2 in zip(k, height2, strict=True))
     left_out = float(np.sqrt(max(total - height2.sum(), 0.0)))
     return RoughnessLevels(levels, bands, np.sqrt(height2), np.sqrt(gradient2), at_bounds, left_out)
