@@ -293,6 +293,9 @@ def test_band():
         assert fit_prony(data.between(1, 100), terms=2).band == pytest.approx((1, 100), rel=1e-12)
     with pytest.raises(hystrip.InputError, match="measured: 0.01 to 1e\\+04 Hz"):
         data.between(2, 3)
+    twice = DynamicModulus(*(np.repeat(each, 2) for each in (data.omega, data.storage, data.loss)))
+    with pytest.raises(hystrip.InputError, match=r"frequencies: got \(0.5, 2\); .* two measured frequencies"):  # not of omega
+        twice.between(0.5, 2)
 
 
 HEAD = "f,E_stor,E_loss\nHz,MPa,MPa\n"

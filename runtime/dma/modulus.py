@@ -131,7 +131,7 @@ class DynamicModulus:
         most = LARGEST if high is None else number("high", high, "Hz", 0)
         # a limit as written and a frequency that came through 2 pi and back differ by rounding
         keep = (f >= least * (1 - 1e-12)) & (f <= most * (1 + 1e-12))
-        if keep.sum() < 2:
+        if np.unique(f[keep]).size < 2:
             span = f"{f[0]:.4g} to {f[-1]:.4g} Hz"
             raise InputError("frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}")
         return self._with(self.omega[keep], self.storage[keep], self.loss[keep])
