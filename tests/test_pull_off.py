@@ -125,6 +125,20 @@ def test_loading_at_next_to_no_pressure_stands_beyond_the_dip(i):
     assert at.p_mean == pytest.approx(p, rel=1e-2)
 
 
+def test_a_ripple_of_a_first_look_is_no_way_back_to_zero():
+    """Next to the first contact its interpolant, known to 200 Pa, rose from -0.5 to 0.2 Pa: all pressures below were given up."""
+    of = (
+        hystrip.StandardLinearSolid(1e9, 0.159703, 0.0145),
+        hystrip.Dugdale(p_0=12700.0, delta_0=4.68e-9),
+        hystrip.Level(8.83e-4, 8.06e-6),
+    )
+    how = {"V": 2.38e-3, "edge": "constitutive", "branch": "loading"}
+    found = hystrip.solve_level(*of, pressure=[-600.0, -500.0, -400.0], rtol=1e-4, **how)
+    assert not found.pulled_off.any() and found.converged.all()
+    at = hystrip.solve_level(*of, D=found.D, strips=4000, **how)
+    assert at.p_mean == pytest.approx(found.p_mean, abs=1.0) and at.tau_mean == pytest.approx(found.tau_mean, rel=1e-3)
+
+
 @pytest.mark.parametrize("level", [LEVEL, hystrip.Level(l=1e-5, h=1e-6)])
 def test_next_to_pull_off_estimates_hold(level):
     """Where the curve turns quantities go like the root of the distance: slopes from beyond it were 40 times too small."""

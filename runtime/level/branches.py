@@ -138,8 +138,9 @@ def meets(part: Branch | Segment, overlap: float) -> bool:
 
 def loaded(parts: list[Branch]) -> list[Branch]:
     """Of parts in order of rising D those that loading follows. When the first strips adhere the pressure falls below zero:
-    rising parts before its minimum are none of them."""
-    back = next((k for k, part in enumerate(parts) if part.p_high >= 0), len(parts) - 1)
+    rising parts before its minimum are none of them. One that rises by less than it errs need not come back to zero."""
+    rises = (part.p_high >= max(0.0, part.p_low + 2 * part.errors.most[0]) for part in parts)
+    back = next((k for k, rise in enumerate(rises) if rise), len(parts) - 1)
     return parts[min(range(back + 1), key=lambda k: parts[k].p_low, default=0) :]
 
 
