@@ -14,7 +14,7 @@ from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, number, numbers
 from .inputs.surface import Level
 from .level.averages import level_means, look_below
-from .level.inverse import Penetrations, invert
+from .level.inverse import invert
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters
 from .points import warn_unconverged
 
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from .contact_map import Cell, ContactMap
     from .inputs.materials import Material
     from .typing import Bools, Branch, Edge, Floats, LevelPlot, Numbers
-
-#: how much finer than it has to be a pressure is known at which fractions are steep, and how finely at most
-_FINER, _FINEST = 0.5, 1e-14
 
 
 @dataclass(frozen=True)
@@ -213,26 +210,12 @@ def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.n
         look_below(columns)
         means = level_means(columns, accuracy)
         return columns.D, means.values, means.errors
-    found, values, errors = _at_pressures(columns, p, rtol)
-    # fractions may be so steep over pressure that it has to be known better for them
-    allowed = rtol * np.abs(values) + columns.atol(accuracy)
-    steep = (np.abs(found.slope) * allowed[:, :1] / allowed).max(axis=1)
-    missed = np.flatnonzero((errors > allowed).any(axis=1) & ~found.undecided & (steep > 1))
-    if missed.size:
-        finer = max(_FINER * rtol / steep[missed].max(), _FINEST)
-        again, values[missed], errors[missed] = _at_pressures(columns.at(missed, columns.D[missed]), p[missed], finer)
-        found.put(missed, again)
-    return found.D, values, errors
-
-
-def _at_pressures(columns: LevelBatch, p: np.ndarray, rtol: float) -> tuple[Penetrations, np.ndarray, np.ndarray]:
-    """Penetrations that carry the pressures ``p`` (Pa, (n,)), means and errors (n, 4)."""
     found, (values, errors) = invert(columns, p, 0.3 * rtol), np.zeros((2, p.size, len(QUANTITIES)))
     values[:, 0], touching = p, np.flatnonzero(~np.isnan(found.D))
     if touching.size:
-        at, accuracy = found.take(touching), np.full(touching.size, rtol)
-        columns = columns.at(touching, at.D)
+        at = found.take(touching)
+        columns, accuracy = columns.at(touching, at.D), rtol / at.steep
         means = level_means(columns, accuracy, columns.atol(accuracy, pressure=1e-3 if columns.adhesion.p_0 > 0 else 0.0))
         values[touching], errors[touching] = at.meeting(p[touching], means)
         errors[touching[at.undecided]] += np.abs(values[touching[at.undecided]])
-    return found, values, errors
+    return found.D, values, errors

@@ -206,7 +206,7 @@ class _Solve:
         index, (touched, group) = index[touching], np.unique(group[touching], return_inverse=True)
         V = V[touched]
         columns = columns.at(touching, found.D[touching])
-        rtol, atol = np.full(index.size, 0.5 * surface.rtol), None
+        rtol, atol = 0.5 * surface.rtol / found.steep[touching], None
         if self.M > 1 and families:
             columns, atol = self._carrying_families(V, group, columns, index, rtol)
         elif self.M > 1:

@@ -182,6 +182,20 @@ def test_a_pressure_is_known_as_well_as_fractions_that_are_steep_over_it_ask_for
 
 
 @pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("above", [1e-7, 4e-7])
+def test_friction_that_is_steep_next_to_pull_off_is_as_accurate_as_asked_for(above):
+    """Loading: next to the least pressure that is carried friction changes like the root of the distance from there."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.2425e-3)
+    adhesion, level = hystrip.Dugdale(gamma=2.14285e-7, delta_0=1.361e-9), hystrip.Level(8.09344e-7, 8.75034e-8)
+    how = {"edge": "constitutive", "branch": "loading"}
+    least = hystrip.friction_law(material, adhesion, level, V=2.94e-3, rtol=1e-9, **how).pull_off
+    how |= {"pressure": least * (1 - above), "velocity": 2.94e-3}
+    coarse, fine = (hystrip.solve(material, adhesion, level, rtol=rtol, **how) for rtol in (5e-3, 1e-6))
+    assert coarse.converged and fine.converged and coarse.counts["strips_solved"] < 2_500
+    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+
+
+@pytest.mark.filterwarnings("error")
 def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
     """With a short memory all strips of the smallest level let go at one height of the valley, within 3e-16 m of D."""
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.00205486)

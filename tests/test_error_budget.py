@@ -242,8 +242,7 @@ def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloadi
     line = lambda *ends: np.array([np.mean(ends, axis=0), 0.5 * np.subtract(*ends[::-1])])  # noqa: E731
     none = constant(np.zeros(2))
     pieces = [Piece(0.0, 1.0, line((0, 0), (1, 1)), none), Piece(1.0, 2.0, line((3, 5), (4, 6)), none)]
-    walk = Walk(0, unloading, 2.0, 1e-6, 1e-6, [(0.0, 2.0)])
-    walk.begin()
+    walk = Walk(0, unloading, 2.0, 1e-6, 1e-6, [], goal=1e-6)
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
         (row,) = branches_of([[*walk.known, *some]], unloading)
         walk.go_on(some, row, False)

@@ -212,7 +212,7 @@ def test_a_step_within_what_either_average_misses_is_no_slope():
     near, missed = slope + [[0, 4e-7, 0, 0]], np.full((1, 4), 5e-7)
     means = Averages(slope * (1 + 1e-8), np.full((1, 4), 1e-12), np.ones(1, int))
     for errors, off in ((missed, 1e-12), (0 * missed, 3e-7)):
-        at = Penetrations(np.zeros(1), near, errors, slope, *np.zeros((2, 1), bool))
+        at = Penetrations(np.zeros(1), near, errors, slope, np.ones(1), *np.zeros((2, 1), bool))
         values, bounds = at.meeting(np.ones(1), means)
         error = abs(values[0, 1] - 0.5)
         assert error <= bounds[0, 1] and (error <= off if errors.any() else error > off)

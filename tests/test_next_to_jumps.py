@@ -44,9 +44,7 @@ def test_the_side_of_a_jump_is_told(case):
 
 def _begun(unloading, p, rough):
     """A walk to ``p``, at last known to 1e-8 Pa, whose whole way is being looked at."""
-    walk = Walk(0, unloading, p, rough, 1e-8, [(0.0, 3.0)])
-    assert walk.begin() == (0.0, 3.0) and walk.goal == rough
-    return walk
+    return Walk(0, unloading, p, rough, 1e-8, [], goal=rough)
 
 
 @pytest.mark.parametrize("unloading", [True, False])
@@ -92,10 +90,9 @@ def test_a_pressure_that_may_be_on_the_last_of_several_branches_is_asked_for_aga
 def test_across_what_is_left_out_as_narrow_a_curve_goes_on(gap, why):
     """Two branches meet at 2 Pa but for 1e-9 Pa, beside a part of the way that was not looked at."""
     walk, pieces = (
-        Walk(0, True, 2 + 0.5e-9, 1e-8, 1e-8, [(0.0, 3.0)], narrow=1e-9),
+        Walk(0, True, 2 + 0.5e-9, 1e-8, 1e-8, [], narrow=1e-9, goal=1e-8),
         [_line(0.0, 1.0, 1e-8), _line(1 + gap, 2 + 1e-9, 1e-8)],
     )
-    walk.begin()
     walk.go_on(pieces, branches_of([pieces], True)[0], False)
     assert walk.undecided == why and walk.root.D == pytest.approx(1.0)
 
@@ -107,7 +104,7 @@ def test_a_later_part_is_known_as_well_as_its_pressures_ask_for(bottom, again):
     walk.goal, first = 1e-8, _line(0.0, 1.0, 1e-9)
     walk.go_on([first], branches_of([[first]], True)[0], False)
     assert walk.now is None and not walk.arrived
-    walk.begin()
+    walk.waiting, walk.goal = [], walk.rough
     behind = _line(-1.0, bottom, 1e-6)
     walk.go_on([behind], branches_of([[first, behind]], True)[0], False)
     assert (walk.now is not None) is again and walk.root is None

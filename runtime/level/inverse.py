@@ -19,8 +19,9 @@ from .strips import AT_JUMP, CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_
 from .walk import Root, Walk, growing
 
 #: accuracy of the first look, of the pressure's scale, and the finest: a pressure so close to a turn of the curve is left
-#: undecided; nodes of an interval at first
-_ROUGH, _CLOSEST, _FIRST = 1e-2, 1e-8, 8
+#: undecided; nodes of an interval at first; the finest accuracy of averages next to a pressure, and how many times steeper than
+#: pressure has been known quantities have to be for a finer one
+_ROUGH, _CLOSEST, _FIRST, _FINEST, _STEEP = 1e-2, 1e-8, 8, 1e-14, 2.0
 #: width of the first part of the curve to be looked at, in heights, and penetrations in each part at which the crest is
 _NEXT, _LOOKS = 0.3, 12
 
@@ -28,13 +29,15 @@ _NEXT, _LOOKS = 0.3, 12
 @dataclass(frozen=True)
 class Penetrations(Batch):
     """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
-    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): it is not known
-    which part of the curve it is; and which lie ``in_jump`` (n,): D is one side of a curve that jumps over the pressure."""
+    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); how ``steep`` that is, relative to sizes, so
+    many times more accurate than quantities pressures have to be, (n,); which are ``undecided`` (n,): it is not known which part
+    of the curve it is; and which lie ``in_jump`` (n,): D is one side of a curve that jumps over the pressure."""
 
     D: np.ndarray
     near: np.ndarray
     near_errors: np.ndarray
     slope: np.ndarray
+    steep: np.ndarray
     undecided: np.ndarray
     in_jump: np.ndarray
 
@@ -42,7 +45,7 @@ class Penetrations(Batch):
     def at(cls, D: np.ndarray) -> Penetrations:
         """Of pressures of which nothing else is known, or asked, than ``D`` (n,)."""
         shape = D.size, len(QUANTITIES)
-        return cls(D, np.full(shape, np.nan), *np.zeros((2, *shape)), *np.zeros((2, D.size), bool))
+        return cls(D, np.full(shape, np.nan), *np.zeros((2, *shape)), np.ones(D.size), *np.zeros((2, D.size), bool))
 
     def meeting(self, p: np.ndarray, means: Averages) -> tuple[np.ndarray, np.ndarray]:
         """Means (n, 4) at the pressures ``p`` (Pa, (n,)), along the secant from those near D to the ``means`` at D, but for the
@@ -91,7 +94,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
         # however little the pressure is, friction goes with it
         x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
         D = np.clip(np.exp(x), low, high)
-    return Penetrations(D, near, errors, np.nan_to_num(slope), *np.zeros((2, p.size), bool))
+    return Penetrations(D, near, errors, np.nan_to_num(slope), np.ones(p.size), *np.zeros((2, p.size), bool))
 
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
@@ -105,9 +108,19 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     while left.size:
         _go_along(columns, [walks[i] for i in left], finest)
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or Root(np.nan, 0.0, np.zeros(q)) for i in left), strict=True)))
-        found = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
+        found, steep = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor), np.ones(left.size)
+        for _ in range(2):
+            sizes = np.abs(found[1]) + 1e-3 * columns.scales
+            now = np.fmax(np.abs(found[3]) * sizes[:, :1] / sizes, 1.0).max(axis=1)
+            # quantities that are steep over pressure may err by ``rtol`` for what that errs by, too
+            steep, more = np.minimum(now, rtol / _FINEST), np.flatnonzero(now > _STEEP * steep)
+            if more.size:
+                at, finer = left[more], Root(found[0][more], *(v[more] for v in root[1:]))
+                again = _refine(columns.at(at, np.zeros(at.size)), p[at], finer, rtol / steep[more], floor)
+                for whole, part in zip(found, again, strict=True):
+                    whole[more] = part
         undecided = np.array([walks[i].undecided != "" for i in left])
-        out.put(left, Penetrations(*found, undecided, ~np.isnan(root.D) & np.isnan(root.low)))
+        out.put(left, Penetrations(*found, steep, undecided, ~np.isnan(root.D) & np.isnan(root.low)))
         # by now it is known how strips change over next to the root
         turns = columns.crossings.turned(columns)
         left = np.array([i for i in left if walks[i].divide(turns.E[turns.velocity == columns.V[i]] + h, out.D[i])], int)
@@ -121,12 +134,12 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> Non
     bottom = first_contact(columns)
     while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
         if fresh := [walk for walk in going if walk.now is None]:
-            D = np.linspace(*np.array([walk.begin() for walk in fresh]).T, _LOOKS, axis=1)
+            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
             row, low, high, _ = between_breaks(columns, np.array([walk.column for walk in fresh]), D)
             # at the top the curve is but cut, or saturates
             ends = np.array((low, high, (low == D[row, 0]) & (low > bottom), high == D[row, -1]))
             for k, walk in enumerate(fresh):
-                walk.now = ends[:, row == k]
+                walk.goal, walk.now = walk.rough, ends[:, row == k]
         low, high, *inner = np.concatenate([walk.now for walk in going], axis=1)
         column = np.repeat([walk.column for walk in going], [walk.now.shape[1] for walk in going])
         # of all quantities the pressure alone is asked for
@@ -146,12 +159,13 @@ def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = Fals
     the ``floor``. With ``powers`` penetrations are given and returned as logarithms, and those of pressures rise over them."""
     D, rise, slope, low, high = root
     of, back, least = (np.log, np.exp, np.finfo(float).tiny) if powers else (np.positive, np.positive, -np.inf)
+    rtol = np.broadcast_to(rtol, p.shape)
     goal, able = rtol * (np.abs(p) + floor), np.flatnonzero((rise > 0) & (high > low))
     last, errors = np.full((p.size, 1 + slope.shape[1]), np.nan), np.zeros(slope.shape)
 
     def missing(x, sub):
         index = able[sub]
-        at, accuracy = columns.at(index, back(x)), np.full(index.size, rtol)
+        at, accuracy = columns.at(index, back(x)), rtol[index]
         # without adhesion pressures are sums of what is nowhere negative: their errors are relative to them alone
         means = level_means(at, accuracy, at.atol(accuracy, pressure=0.0 if powers else 1e-3, fraction=1.0))
         new, before = np.column_stack((x, means.values)), last[index]
@@ -160,13 +174,13 @@ def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = Fals
         steps, last[index] = new - before, new
         unknown, errors[index] = means.errors + errors[index], means.errors
         wide = (steps[:, 0] * steps[:, 1] > 0) & (np.abs(steps[:, 1]) > unknown[:, 0])
-        steep = np.divide(of(new[:, 1]) - of(before[:, 1]), steps[:, 0], out=np.zeros(x.size), where=wide)
-        better = steep > 0
+        secant = np.divide(of(new[:, 1]) - of(before[:, 1]), steps[:, 0], out=np.zeros(x.size), where=wide)
+        better = secant > 0
         # without a coarse curve quantities are taken to go with the pressure, that about as the contact at rest makes it rise
         alone = index[np.isnan(slope[index, 0])]
         slope[alone] = last[alone, 1:] / last[alone, 1:2]
         rise[alone] = np.maximum(columns.material.K * back(last[alone, 0]) / last[alone, 1] * last[alone, 3], 1.0)
-        rise[index[better]], slope[index[better]] = steep[better], steps[better, 1:] / steps[better, 1:2]
+        rise[index[better]], slope[index[better]] = secant[better], steps[better, 1:] / steps[better, 1:2]
         miss = p[index] - new[:, 1]
         return np.where(np.abs(miss) > goal[index], of(p[index]) - of(new[:, 1]), 0.0), -rise[index]
 

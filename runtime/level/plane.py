@@ -179,14 +179,6 @@ def turning(points: CurvePoints) -> np.ndarray:
     return 1 + np.flatnonzero(one[:-1] & one[1:] & (steps[:-1] != 0) & (steps[:-1] * steps[1:] <= 0))
 
 
-def locate_between(columns: LevelBatch, boundary: Boundary, known: CurvePoints) -> CurvePoints:
-    """Points of the curves through the points ``known`` half way between two at one E, where they turn between them."""
-    one = np.flatnonzero(together(known) & (np.diff(known.E) == 0) & (np.diff(known.A) > 0))
-    A, edges = (0.5 * (v[one] + v[one + 1]) for v in (known.A, known.edges))
-    points, found = locate(columns, boundary, replace(known.take(one), A=A, edges=edges), "E")
-    return points.take(np.flatnonzero(found))
-
-
 def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, had: Turns) -> tuple[Turns, CurvePoints]:
     """Turns of the curves through the points ``known``, where their slope vanishes, that are found beside those ``had``; and the
     points there."""

@@ -21,7 +21,7 @@ from ..numerics.rounding import EPS
 from ..orbit.foundation import foundation_of
 from ..orbit.regimes import CODE, ZONES
 from .changes import Changes
-from .plane import BOUNDARIES, Boundary, CurvePoints, Turns, grazing, locate, locate_between, locate_turns, together, turning
+from .plane import BOUNDARIES, Boundary, CurvePoints, Turns, grazing, locate, locate_turns, together, turning
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -245,7 +245,6 @@ class Crossings:
         """Where the curves turn, as far as is known at the velocities of ``columns``."""
         none = Turns(*np.empty((4, 0)))
         for boundary in list(self.points):
-            self.remember(boundary, locate_between(columns, boundary, self.points[boundary]))
             had = self.turns.get(boundary, none)
             turns, points = locate_turns(columns, boundary, self.points[boundary], had)
             self.turns[boundary] = Turns.joined([had, turns])

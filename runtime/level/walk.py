@@ -62,11 +62,6 @@ class Walk:
     arrived: bool = False
     undecided: str = ""
 
-    def begin(self) -> tuple[float, float]:
-        """The next part of the way."""
-        self.goal = self.rough
-        return self.waiting.pop()
-
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
         not ``exhausted`` what comes to the pressure may be asked for again, finer."""
