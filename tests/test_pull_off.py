@@ -139,6 +139,17 @@ def test_a_ripple_of_a_first_look_is_no_way_back_to_zero():
     assert at.p_mean == pytest.approx(found.p_mean, abs=1.0) and at.tau_mean == pytest.approx(found.tau_mean, rel=1e-3)
 
 
+@pytest.mark.filterwarnings("ignore::hystrip.ConvergenceWarning")
+@pytest.mark.parametrize("above", [1e-9, 3e-9, 1e-8])
+def test_what_carries_a_pressure_just_above_pull_off_is_not_cut_off(above):
+    """All strips snap in at D = h - delta_0: saturated contact carries K (h/4 - delta_0) there, all that its parts are cut by."""
+    of = (hystrip.StandardLinearSolid(1e9, 1e-2, 1e-5), hystrip.Dugdale(p_0=230.0, delta_0=7.2e-8), hystrip.Level(4e-7, 1e-7))
+    how = {"V": 1e-5, "edge": "constitutive", "branch": "loading"}
+    found = hystrip.solve_level(*of, pressure=-47.0 * (1 - above), **how)
+    assert found.D == pytest.approx(28e-9 + 47e-9 * above, rel=1e-9)
+    assert found.tau_mean == pytest.approx(hystrip.friction_law(*of, rtol=1e-3, **how).tau_sat, rel=1e-9)
+
+
 @pytest.mark.parametrize("level", [LEVEL, hystrip.Level(l=1e-5, h=1e-6)])
 def test_next_to_pull_off_estimates_hold(level):
     """Where the curve turns quantities go like the root of the distance: slopes from beyond it were 40 times too small."""

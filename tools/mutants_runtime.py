@@ -164,8 +164,8 @@ MUTANTS = (
     Mutant(
         "what is narrower than pressures are known is looked into",
         "level/curve.py",
-        ", atol[parts.column] / K))",
-        ", 0.0))",
+        "np.where(parts.inner_high, 0.0, atol[parts.column] / K)",
+        "0.0",
         "test_bounded_work.py",
     ),
     Mutant(

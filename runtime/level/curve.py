@@ -59,7 +59,8 @@ def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) 
 
     Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more touches.
     So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
-    falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out."""
+    falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out, unless it ends
+    where the curve is but cut, and may rise just to the pressure."""
     K, h = columns.material.K, columns.level.h
     # nearer to a threshold than that rounding decides strip by strip
     opens, nearest = h + columns.opens, 64 * EPS * (h - columns.opens)
@@ -84,4 +85,5 @@ def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) 
         upper.low, upper.inner_low = D[np.arange(upper.size), 1 + more.argmax(axis=1)], cut
         lower, upper = lower.take(cut), upper.take(cut & more.any(axis=1))
     parts = Intervals.joined([intervals.take(~inside), lower, upper])
-    return parts.take(parts.width > np.maximum(nearest + 64 * EPS * np.abs(parts.high), atol[parts.column] / K))
+    narrow = np.where(parts.inner_high, 0.0, atol[parts.column] / K)
+    return parts.take(parts.width > np.maximum(nearest + 64 * EPS * np.abs(parts.high), narrow))

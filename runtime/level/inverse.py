@@ -19,8 +19,7 @@ from .strips import AT_JUMP, CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_
 from .walk import Root, Walk, growing
 
 #: accuracy of the first look, of the pressure's scale, and the finest: a pressure so close to a turn of the curve is left
-#: undecided; nodes of an interval at first; the finest accuracy of averages next to a pressure, and how many times steeper than
-#: pressure has been known quantities have to be for a finer one
+#: undecided; nodes of an interval at first; finest accuracy of averages, and how steep over pressure what asks for more has to be
 _ROUGH, _CLOSEST, _FIRST, _FINEST, _STEEP = 1e-2, 1e-8, 8, 1e-14, 2.0
 #: width of the first part of the curve to be looked at, in heights, and penetrations in each part at which the crest is
 _NEXT, _LOOKS = 0.3, 12
@@ -29,9 +28,9 @@ _NEXT, _LOOKS = 0.3, 12
 @dataclass(frozen=True)
 class Penetrations(Batch):
     """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
-    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); how ``steep`` that is, relative to sizes, so
-    many times more accurate than quantities pressures have to be, (n,); which are ``undecided`` (n,): it is not known which part
-    of the curve it is; and which lie ``in_jump`` (n,): D is one side of a curve that jumps over the pressure."""
+    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4), and how ``steep`` that is at most, relative to
+    sizes, (n,); which are ``undecided`` (n,): it is not known which part of the curve it is; and which lie ``in_jump`` (n,): D is
+    one side of a curve that jumps over the pressure."""
 
     D: np.ndarray
     near: np.ndarray
@@ -159,9 +158,8 @@ def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = Fals
     the ``floor``. With ``powers`` penetrations are given and returned as logarithms, and those of pressures rise over them."""
     D, rise, slope, low, high = root
     of, back, least = (np.log, np.exp, np.finfo(float).tiny) if powers else (np.positive, np.positive, -np.inf)
-    rtol = np.broadcast_to(rtol, p.shape)
-    goal, able = rtol * (np.abs(p) + floor), np.flatnonzero((rise > 0) & (high > low))
-    last, errors = np.full((p.size, 1 + slope.shape[1]), np.nan), np.zeros(slope.shape)
+    rtol, able = np.broadcast_to(rtol, p.shape), np.flatnonzero((rise > 0) & (high > low))
+    goal, last, errors = rtol * (np.abs(p) + floor), np.full((p.size, 1 + slope.shape[1]), np.nan), np.zeros(slope.shape)
 
     def missing(x, sub):
         index = able[sub]
