@@ -101,7 +101,7 @@ def _above_points(where: str, channel: Any) -> tuple[str | None, list[str | None
         for key, pattern in _OF_COORDINATES.items():
             if match := pattern.match(line):
                 found[key] = _known(match[1], where)
-        heading = line.strip() and line or heading
+        heading = line if line.strip() else heading
     if found:
         return found.get("Value"), [found.get("Lateral")] * channel.dim
     units = [_known(word, where) for word in re.split(_BESIDE_UNITS, heading) if _is_unit(word)]
