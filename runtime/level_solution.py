@@ -217,5 +217,4 @@ def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.n
         columns, accuracy = columns.at(touching, at.D), rtol / at.steep
         means = level_means(columns, accuracy, columns.atol(accuracy, pressure=1e-3 if columns.adhesion.p_0 > 0 else 0.0))
         values[touching], errors[touching] = at.meeting(p[touching], means)
-        errors[touching[at.undecided]] += np.abs(values[touching[at.undecided]])
     return found.D, values, errors

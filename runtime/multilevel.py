@@ -266,13 +266,13 @@ class _Solve:
         for fractions in (out.contact, out.adhesion):
             fractions[:, index] = np.clip(fractions[:, index], 0.0, 1.0)  # laws, interpolated, may be a rounding outside
         error = errors[:, 1] + means.errors[:, range(own, count, 3)].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
-        # what is carried is that of the pressure at D: it grows with the contact, and with what that is pressed by
-        grown = np.abs(root.slope[:, 1:3]) * errors[:, :1] / np.maximum(np.abs(values[:, 1:3]), np.finfo(float).tiny)
+        # what is carried is that of the pressure at D: it grows with the contact, and with what that is pressed by; and where it
+        # is not known which part of the curve it is
+        grown = np.abs(root.slope[:, 1:3]) * errors[:, :1] + root.other[:, 1:3]
+        grown /= np.maximum(np.abs(values[:, 1:3]), np.finfo(float).tiny)
         error += np.minimum(grown.sum(axis=1), 1.0) * np.abs(values[:, range(own, count, 3)]).sum(axis=1)
-        # another part of the curve may carry anything; and the other side of a jump any friction of the lower levels
-        friction = np.abs(out.tau[:, index])
-        out.error[index] = error + np.where(root.undecided, friction.sum(axis=0), 0.0)
-        out.error[index] += np.where(root.in_jump & ~root.undecided, friction[1:].sum(axis=0), 0.0)
+        # the other side of a jump may carry any friction of the lower levels
+        out.error[index] = error + np.where(root.in_jump, np.abs(out.tau[1:, index]).sum(axis=0), 0.0)
 
 
 def _most(group: np.ndarray, values: np.ndarray, groups: int) -> np.ndarray:

@@ -5,7 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.level.interpolation import Intervals
-from hystrip.level.look import BENDS, before_least, between_nodes, unloading_meets
+from hystrip.level.look import BENDS, between_nodes, unloading_meets
 from hystrip.numerics.quadrature import Stage, interior_nodes
 
 
@@ -107,26 +107,6 @@ def test_columns_have_nothing_to_do_with_each_other():
     )
     meets, ceiling = unloading_meets(both, np.concatenate([D for _, D in stages]), BENDS[0])
     assert (meets[:2] == meets[2:]).all() and (ceiling[:2] == ceiling[2:]).all()
-
-
-def test_loading_passes_by_what_comes_before_the_least_pressure():
-    stage, D = _looked(lambda D: D * (D - 4), 0, 0.5, 1, 1.5, 3, 5)
-    assert before_least(stage, D).tolist() == [True, True, True, False, False]
-
-
-def test_it_does_not_where_the_pressure_comes_back_to_zero_before():
-    """Down to -1, back above zero, and down to -8: loading stops where it comes back."""
-    curve = lambda D: np.interp(D, [0, 1, 2, 4, 6], [0, -1, 0.2, -8, 2])  # noqa: E731
-    stage, D = _looked(curve, 0, 1, 2, 4, 6)
-    assert before_least(stage, D).tolist() == [False, False, False, False]
-    stage, D = _looked(lambda D: curve(D) - 0.5, 0, 1, 2, 4, 6)
-    assert before_least(stage, D).tolist() == [True, True, False, False]
-
-
-def test_it_does_not_where_errors_leave_open_which_is_least():
-    curve = lambda D: np.interp(D, [0, 1, 2, 3, 5], [0, -1, -0.9, -1.01, 2])  # noqa: E731
-    stage, D = _looked(curve, 0, 1, 2, 3, 5, error=0.004)
-    assert before_least(stage, D).tolist() == [False, False, False, False]
 
 
 def test_a_level_whose_strips_cling_all_but_at_once_is_not_followed_there():

@@ -17,7 +17,7 @@ from ..inputs.adhesion import Dugdale
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch, Ranges
 from .changes import Changes, locate_changes
-from .regime_map import by_equation, hides_another, straight, theta_of
+from .regime_map import OPENS, by_equation, hides_another, straight, theta_of
 from .strips import LevelBatch
 
 #: penetrations of a scan where regimes follow one another
@@ -67,8 +67,10 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
     changes, _ = locate_changes(probe, equation, changes, width)
     touched = np.full(m, np.inf)
     np.minimum.at(touched, changes.line, changes.high)
-    # the flat strip of the valley has no amplitude
-    valley = h + straight(columns)[1].T[column]
+    # the flat strip of the valley has no amplitude; where gaps can open over it strips that load may begin to jump, too
+    c = straight(columns)[1]
+    c[OPENS] = columns.opens if columns.stretch > 0 else np.nan
+    valley = h + c.T[column]
     row, which = np.nonzero((D[:, :1] < valley) & (valley < D[:, -1:]))
     row = np.concatenate((changes.line, row, np.repeat(np.arange(m), 2)))
     ends = np.concatenate((changes.high, valley[row[changes.size : -2 * m], which], D[:, [0, -1]].ravel()))

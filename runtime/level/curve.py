@@ -63,16 +63,14 @@ def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) 
     where the curve is but cut, and may rise just to the pressure."""
     K, h = columns.material.K, columns.level.h
     # nearer to a threshold than that rounding decides strip by strip
-    opens, nearest = h + columns.opens, 64 * EPS * (h - columns.opens)
-    above, inside = intervals.high - opens, (intervals.low < opens) & (columns.branch == "loading") & (columns.adhesion.p_0 > 0)
+    opens, nearest, known = h + columns.opens, 64 * EPS * (h - columns.opens), atol[intervals.column] / K
+    inside = (np.abs(intervals.low - opens) <= nearest + 1e-12 * h) & (columns.branch == "loading") & (columns.stretch > 0)
     # where all may err by more than it falls there nothing is looked for
-    inside &= (np.maximum(above, intervals.atol[:, 0] / K) < _SHORT * h) & (above > 0)
-    narrow = inside & (above <= np.maximum(nearest / _APART[0], atol[intervals.column] / K))
-    intervals = replace(intervals, high=np.where(narrow, opens, intervals.high), inner_high=intervals.inner_high & ~narrow)
-    inside &= ~narrow
-    lower, upper = intervals.take(inside).split(np.full(np.count_nonzero(inside), opens), soft=False)
+    inside &= np.maximum(intervals.width, intervals.atol[:, 0] / K) < _SHORT * h
+    inside &= intervals.width > np.maximum(nearest / _APART[0], known)
+    parts, upper = intervals.take(~inside), intervals.take(inside)
     if upper.size:
-        beside = np.minimum(np.maximum(atol[upper.column] / K, nearest), _APART[0] * upper.width)
+        beside = np.minimum(np.maximum(known[inside], nearest), _APART[0] * upper.width)
         # the pressure falls like a logarithm of the distance before it rises
         steps = np.column_stack((-beside, np.geomspace(beside, _APART[1] * upper.width, _NODES, axis=1)))
         D, each = opens + steps, upper.take(np.repeat(np.arange(upper.size), steps.shape[1]))
@@ -80,10 +78,12 @@ def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) 
         values, errors, _ = means_in(columns, each, D.ravel())
         low, high = (each[:, 0].reshape(D.shape) for each in (values - errors, values + errors))
         # it rises by K times the penetration at most; below zero, as the first strips cling, loading begins where it is least
-        more = (high[:, 1:] + K * np.diff(steps[:, 1:], axis=1, append=upper.width[:, None]) > low[:, :1]) | (low[:, :1] <= 0)
-        inside[inside] = cut = ~more[:, 0]
-        upper.low, upper.inner_low = D[np.arange(upper.size), 1 + more.argmax(axis=1)], cut
-        lower, upper = lower.take(cut), upper.take(cut & more.any(axis=1))
-    parts = Intervals.joined([intervals.take(~inside), lower, upper])
+        rises = K * np.diff(steps[:, 1:], axis=1, append=upper.width[:, None])
+        after = np.pad(low[:, 2:], ((0, 0), (0, 1)), constant_values=-np.inf)
+        more = high[:, 1:] + rises > low[:, :1]
+        more |= (low[:, :1] <= 0) & (after - rises <= high.min(axis=1, keepdims=True))
+        first = more.argmax(axis=1)
+        upper.low, upper.inner_low = np.where(first > 0, D[np.arange(upper.size), 1 + first], upper.low), first > 0
+        parts = Intervals.joined([parts, upper.take(more.any(axis=1))])
     narrow = np.where(parts.inner_high, 0.0, atol[parts.column] / K)
     return parts.take(parts.width > np.maximum(nearest + 64 * EPS * np.abs(parts.high), narrow))

@@ -15,7 +15,7 @@ from .averages import level_means
 from .branches import Errors, Piece, share_of
 from .breaks import Islands, islands, locate_vanishing
 from .error_budget import ErrorBudget
-from .look import BENDS, before_least, unloading_meets
+from .look import BENDS, unloading_meets
 from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 
 #: share of the error allowed that each mean may have
@@ -145,9 +145,7 @@ class _Work:
     def _looked(self, stage: Stage) -> Stage:
         """What a branch may come to, of the first look; by now it is known what pressures an interval comes to, and so how well
         they have to be known."""
-        if self.columns.branch == "loading":
-            stage = stage.take(~before_least(stage, _with_ends(stage)))
-        else:
+        if self.columns.branch == "unloading":
             stage = stage.take(unloading_meets(stage, _with_ends(stage), BENDS[0])[0].any(axis=1))
         known = np.flatnonzero(~stage.parts.rough)
         if self.budget is not None:

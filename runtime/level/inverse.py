@@ -29,22 +29,22 @@ _NEXT, _LOOKS = 0.3, 12
 class Penetrations(Batch):
     """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
     them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4), and how ``steep`` that is at most, relative to
-    sizes, (n,); which are ``undecided`` (n,): it is not known which part of the curve it is; and which lie ``in_jump`` (n,): D is
-    one side of a curve that jumps over the pressure."""
+    sizes, (n,); how far they are from those of ``other`` parts of the curve, (n, 4), where it is not known which one it is; and
+    which lie ``in_jump`` (n,): D is one side of a curve that jumps over the pressure."""
 
     D: np.ndarray
     near: np.ndarray
     near_errors: np.ndarray
     slope: np.ndarray
     steep: np.ndarray
-    undecided: np.ndarray
+    other: np.ndarray
     in_jump: np.ndarray
 
     @classmethod
     def at(cls, D: np.ndarray) -> Penetrations:
         """Of pressures of which nothing else is known, or asked, than ``D`` (n,)."""
         shape = D.size, len(QUANTITIES)
-        return cls(D, np.full(shape, np.nan), *np.zeros((2, *shape)), np.ones(D.size), *np.zeros((2, D.size), bool))
+        return cls(D, np.full(shape, np.nan), *np.zeros((2, *shape)), np.ones(D.size), np.zeros(shape), np.zeros(D.size, bool))
 
     def meeting(self, p: np.ndarray, means: Averages) -> tuple[np.ndarray, np.ndarray]:
         """Means (n, 4) at the pressures ``p`` (Pa, (n,)), along the secant from those near D to the ``means`` at D, but for the
@@ -60,7 +60,7 @@ class Penetrations(Batch):
         own[:, 1:] += (secant * miss)[:, 1:]
         # along a secant fractions leave what they can be, by less than their errors
         own[:, 2:] = np.clip(own[:, 2:], 0.0, 1.0)
-        errors[:, 1:] += (np.abs(secant) * errors[:, :1] + doubt * np.abs(miss))[:, 1:]
+        errors[:, 1:] += (np.abs(secant) * errors[:, :1] + doubt * np.abs(miss) + self.other)[:, 1:]
         errors[:, :1] += np.abs(miss)
         return own, errors
 
@@ -93,7 +93,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
         # however little the pressure is, friction goes with it
         x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
         D = np.clip(np.exp(x), low, high)
-    return Penetrations(D, near, errors, np.nan_to_num(slope), np.ones(p.size), *np.zeros((2, p.size), bool))
+    return Penetrations(D, near, errors, np.nan_to_num(slope), np.ones(p.size), np.zeros(slope.shape), np.zeros(p.size, bool))
 
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
@@ -118,8 +118,8 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
                 again = _refine(columns.at(at, np.zeros(at.size)), p[at], finer, rtol / steep[more], floor)
                 for whole, part in zip(found, again, strict=True):
                     whole[more] = part
-        undecided = np.array([walks[i].undecided != "" for i in left])
-        out.put(left, Penetrations(*found, steep, undecided, ~np.isnan(root.D) & np.isnan(root.low)))
+        other = np.array([walks[i].other + np.zeros(q) for i in left])
+        out.put(left, Penetrations(*found, steep, other, ~np.isnan(root.D) & np.isnan(root.low)))
         # by now it is known how strips change over next to the root
         turns = columns.crossings.turned(columns)
         left = np.array([i for i in left if walks[i].divide(turns.E[turns.velocity == columns.V[i]] + h, out.D[i])], int)

@@ -42,21 +42,3 @@ def unloading_meets(stage: Stage, D: np.ndarray, bends: float) -> tuple[np.ndarr
     top = np.logical_and.accumulate(meets[:, ::-1], axis=1)[:, ::-1]
     lowest = np.where(top & told, (p - DOUBT * np.pad(error, ((0, 0), (1, 1)), "edge"))[:, :-1], np.inf).min(axis=1)
     return meets & ~(top & (lowest > ceiling)[:, None]), ceiling
-
-
-def before_least(stage: Stage, D: np.ndarray) -> np.ndarray:
-    """Which intervals of curves, (m,), with nodes ``D`` (m, n) and ends, end before the pressure is least.
-
-    As strips cling it falls below zero; until it comes back there, no part before its least is one that loading follows
-    (``branches.loaded``)."""
-    p, slack = between_nodes(stage, D, BENDS[0])
-    lowest = (np.minimum(p[:, 1:], p[:, :-1]) - slack).min(axis=1)
-    highest = (stage.known[0] + DOUBT * stage.known[1])[:, :, 0]
-    # where it falls, or surely is below zero, it does not come back
-    away = (p[:, 1:] < p[:, :-1]) | (p[:, 1:] + slack < 0)
-    before, order = np.zeros(lowest.size, bool), np.lexsort((D[:, 0], stage.parts.column))
-    for here in np.split(order, np.flatnonzero(np.diff(stage.parts.column[order])) + 1):
-        met = np.logical_and.accumulate(away[here].ravel()).reshape(here.size, -1)[:, :-1]
-        least = np.where(met, highest[here], np.inf).min(axis=1)
-        before[here] = lowest[here] > np.append(np.minimum.accumulate(least[::-1])[-2::-1], np.inf)
-    return before

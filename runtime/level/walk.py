@@ -46,7 +46,8 @@ class Walk:
     """To the pressure ``p``, Pa. What its curve may err by: at the first look at a part ``rough``, at last ``finest``, in what is
     asked for now ``goal``. ``waiting``: what is left, the next part last; what is as ``narrow``, m, is left out; ``now``: the
     intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``: pieces of all others, and the
-    goal each was asked with. ``arrived``: it need not go on. ``undecided``: why, if it is."""
+    goal each was asked with. ``arrived``: it need not go on. ``undecided``: why, if it is,
+    and how far quantities are apart where it may be (``other``, (q,))."""
 
     column: int
     unloading: bool
@@ -61,6 +62,7 @@ class Walk:
     root: Root | None = None
     arrived: bool = False
     undecided: str = ""
+    other: np.ndarray | float = 0.0
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
@@ -71,27 +73,30 @@ class Walk:
         # as the first strips cling the pressure falls below zero, and where it is least is known when it comes back
         if not row or (clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0])):
             return
-        k, told, one = self._place(row)
+        k, least, most = self._place(row)
         # a branch may be hidden in a piece that is known less well than those that have some
         on = {part.piece: self.known[part.piece] for part in row}
         coarser = [piece for piece in self.known if piece not in on and self.known[piece] > min(on.values())]
-        if not told or self._near(row, k, coarser):
+        if least < most or self._near(row, k, coarser):
             near = self._near(row, k, self.known)
             goal = max(_FINER * max((self.known[piece] for piece in near), default=0.0), self.finest)
             if not exhausted and (again := [piece for piece in near if self.known[piece] > goal]):
                 self._ask_again(again, goal)
                 return
-            # two branches that overlap by less than they are known to may be one
-            if not told and not one:
-                self.undecided = NO_CURVE if exhausted else AT_JUMP
+            if least < most:
+                # what is left may carry it
+                if self.waiting and not exhausted and (least < 0 if self.unloading else most == 2 * len(row) - 1):
+                    return
+                self.other = self._apart(row, least, most, exhausted)
+                self.undecided = (NO_CURVE if exhausted else AT_JUMP) * bool(self.other.any())
             k = max(k, 0)
         if 0 <= k < 2 * len(row) - 1:
             self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
         self.arrived = self.root is not None or clings
 
-    def _place(self, row: list[Branch]) -> tuple[int, bool, bool]:
-        """Where the pressure is: below all branches (-1), on number k (2 k) or just above it (2 k + 1); whether that is told, for
-        all they may err by; and whether those that it may be on are one as far as is known."""
+    def _place(self, row: list[Branch]) -> tuple[int, int, int]:
+        """Where the pressure is: below all branches (-1), on number k (2 k) or just above it (2 k + 1); and where it may be at
+        least and at most, for all they may err by, if those are not parts of one."""
         low, high = np.array([(part.p_low, part.p_high) for part in row]).T
         # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
         high[-1] = np.inf if self.unloading or not self.waiting else high[-1]
@@ -110,7 +115,19 @@ class Walk:
         joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
         inside = 0 <= least and most < 2 * len(row) - 1
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and b.piece.low - a.piece.high <= self.narrow for a, b in joints)
-        return k, least == most or whole, inside and all(a.inner_high and b.inner_low for a, b in joints)
+        # between two of them each may still be known better
+        whole &= not (k % 2 and any(unseen[k // 2 : k // 2 + 2]))
+        return (k, k, k) if whole else (k, least, most)
+
+    def _apart(self, row: list[Branch], least: int, most: int, exhausted: bool) -> np.ndarray:
+        """How far quantities (q,) differ between the places from ``least`` to ``most`` at which the pressure may be."""
+        parts, nowhere = row[max(least, 0) // 2 : (most + 1) // 2 + 1], least < 0 or exhausted
+        doubts = np.array([_DOUBT * part.errors.most[0] for part in parts])[:, None] * [-1, 1]
+        t = ParameterAt(parts)(np.repeat(np.arange(len(parts)), 2), (self.p + doubts).ravel()).reshape(doubts.shape)
+        values = np.concatenate([part.piece.values(at) for part, at in zip(parts, t, strict=True)])
+        # two branches that overlap by less than they are known to may be one
+        one = not nowhere and most < 2 * len(row) - 1 and all(a.inner_high and b.inner_low for a, b in pairwise(parts))
+        return np.maximum(np.ptp(values, axis=0) * (not one), np.abs(values).max(axis=0) * nowhere)
 
     def _near(self, row: list[Branch], k: int, among: Iterable[Piece]) -> list[Piece]:
         """Those pieces ``among`` some in which the curve may carry the pressure before it does at place ``k`` of the branches."""
@@ -124,7 +141,7 @@ class Walk:
         before = turns[~(turns <= D if self.unloading else turns >= D)]
         again = [one for one in self.known if ((one.low < before) & (before < one.high)).any() and self._comes_to(one)]
         if again:
-            self.root, self.undecided, self.arrived = None, "", False
+            self.root, self.undecided, self.other, self.arrived = None, "", 0.0, False
             self._ask_again(again, min(self.known[piece] for piece in again), before)
         return bool(again)
 
