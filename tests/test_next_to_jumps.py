@@ -83,6 +83,15 @@ def test_at_a_jump_itself_either_side_may_be_meant(unloading):
         assert not told or walk.root.D == pytest.approx(0.0, abs=1e-9)
 
 
+@pytest.mark.parametrize("left", [[], [(1.0, 2.0)]])
+def test_where_its_way_ends_loading_carries_the_pressure(left):
+    """A curve from 1 to 2 Pa, known to 1e-8: to 1e-9 Pa above its end, if that is where its way ends, or else behind it."""
+    piece = _line(0.0, 1.0, 1e-8)
+    walk = Walk(0, False, 2 + 1e-9, 1e-8, 1e-8, left, goal=1e-8)
+    walk.go_on([piece], branches_of([[piece]], False)[0], False)
+    assert walk.arrived is not bool(left) and (left or walk.root.D == pytest.approx(1.0)) and not walk.undecided
+
+
 @pytest.mark.parametrize("p", [1.998, 2.002])
 def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
     """From 1 Pa up to 2.003 at D = 1, and from 2 Pa on above: either errors of 0.01 Pa, or a turn."""

@@ -145,7 +145,7 @@ MUTANTS = (
         "level/walk.py",
         "if self.unloading or not self.waiting else",
         "if self.unloading else",
-        "test_next_to_saturation.py",
+        "test_next_to_jumps.py",
     ),
     Mutant(
         "a coarse curve tells the side of a jump",
