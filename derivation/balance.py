@@ -1,76 +1,15 @@
-"""The balance of a period, mean p = mean w, and what is known of its parts: it excludes orbits, and says where others start."""
-
-from collections.abc import Sequence
+"""The balance of a period, mean p = mean w, on a foundation that all but stands still: it says where orbits start."""
 
 import sympy as sp
 
 from .check import Derived, derived, zero
 from .flows import Flows
-from .regime import Zone
-from .sequences import ADHESION, CONTACT, PERIOD, Row
-from .symbols import D, J, L, a, alpha, beta, c, d, delta_0, gap_0, p, p_0, q_0, s, s_0, s_1, w_0
-from .zones import over_zone
+from .sequences import PERIOD
+from .symbols import J, L, a, c, delta_0, p_0, s
 
-lasts, rises, jump = sp.symbols("lasts rises jump", positive=True)
-NAMES = {"F": lasts, "r": rises, r"\Deltaw": jump}
+jump = sp.Symbol("jump", positive=True)
+NAMES = {r"\Deltaw": jump}
 """In the displays."""
-
-
-def pull_and_pressure(regimes: Sequence[Row], flows: Flows) -> Derived:
-    r"""Nothing is left of beta z' = p - w over a period: the pressure over -p_0, summed over contact, is p_0 times the length of
-    engagement and the sum of w. That pressure, where contact begins with none:
-
-    .. math:: \int_{s_0}^{s_1} q\,ds = (D - 1 + p_0)(s_1 - s_0) + \sin s_1 - \sin s_0 + \beta (\cos s_1 - \cos s_0) - \alpha
-        q(s_1)
-    """
-    begun = (flows.contact.value + p_0).subs(q_0, 0)
-    total, claim = over_zone(begun, "q")
-    profile, _ = over_zone(flows.strip.u + p_0, "u")
-    balance = profile + beta * (flows.strip.u.subs(s, s_1) - flows.strip.u.subs(s, s_0)) - alpha * begun.subs(s, s_1)
-    claims = [
-        claim,
-        zero("alpha q' + q = u + beta u' + p_0, summed", total - balance, phases=(s_0, s_1)),
-        zero("of p is left, beside q, -p_0 over the length of engagement", [_outside(regime.zones) for regime in regimes]),
-    ]
-    return derived(pull_and_pressure, total, claims)
-
-
-def _outside(zones: Sequence[Zone]) -> sp.Expr:
-    """The pressure less q, summed over a period, and p_0 over contact and adhesion."""
-    pressed = [(-p_0 if zone.kind == CONTACT else zone.load) * (zone.last - zone.first) for zone in zones]
-    engaged = [p_0 * (zone.last - zone.first) for zone in zones if zone.kind in (CONTACT, ADHESION)]
-    return sp.expand(sum(pressed) + sum(engaged))
-
-
-def before_contact(flows: Flows) -> Derived:
-    r"""Adhesion begins at s_0, where w = D - r, and ends where the gap has closed. There 1 - cos s_1 is
-
-    .. math:: r - (D + p_0 - r) \left(e^{-(s_1 - s_0)/\beta} - 1\right)
-    """
-    value = rises - (D + p_0 - rises) * (sp.exp(-(s_1 - s_0) / beta) - 1)
-    gap = flows.gap.value.subs({p: -p_0, s: s_1}).subs(gap_0, D - rises - flows.strip.u.subs(s, s_0))
-    claim = zero("the gap at s_1 is what 1 - cos s_1 is more", gap - (1 - sp.cos(s_1) - value), phases=(s_0, s_1))
-    return derived(before_contact, value, [claim])
-
-
-def before_onset(flows: Flows) -> Derived:
-    r"""A free zone that lasts F leads to an onset at d, where w = u + delta_0, from a release after which w is more by its step.
-    The cosine of the phase of the release, and the sum of w over the zone:
-
-    .. math:: \cos d - \Delta w + (u(d) + \delta_0) \left(e^{F/\beta} - 1\right),\quad (u(d) + \delta_0) \beta \left(e^{F/\beta} -
-        1\right)
-    """
-    height = flows.strip.u.subs(s, d) + delta_0
-    cosine = sp.cos(d) - jump + height * (sp.exp(lasts / beta) - 1)
-    summed = height * beta * (sp.exp(lasts / beta) - 1)
-    fades = flows.relaxation.value.subs({p: 0, w_0: D - 1 + cosine + delta_0 + jump})
-    total, claim = over_zone(fades, "w")
-    claims = [
-        zero("w fades to u + delta_0", fades.subs(s, s_0 + lasts) - height),
-        claim,
-        zero("and its sum", total.subs(s_1, s_0 + lasts) - summed),
-    ]
-    return derived(before_onset, (cosine, summed), claims)
 
 
 def standing_still(flows: Flows) -> Derived:

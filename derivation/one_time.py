@@ -3,7 +3,7 @@
 import sympy as sp
 
 from .averages import constant_means, strip_means
-from .balance import before_contact, before_onset, pull_and_pressure, standing_still
+from .balance import standing_still
 from .conditions import strip_problem, zone_conditions
 from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
@@ -63,7 +63,7 @@ def derive(model: Model) -> Derivation:
         (sample_roots("one_time", table, mode_flows()), systems, means, still),
         (power_balance(flow), *(friction_balance(regime) for regime in partial)),
         (shift_of_an_event(), onsets, slopes, slope_of_the_onset_map(partial), growth_of_the_slope(partial[0])),
-        (pull_and_pressure(partial, flow), before_contact(flow), before_onset(flow), standing_still(flow)),
+        (standing_still(flow),),
         multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event")),
         (least_pressure(threshold, whole[1].exact), levels_together(one_strip, whole[2].exact), crests_at_rest(), half_space()),
     )

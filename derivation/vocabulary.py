@@ -182,8 +182,6 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "onset_slope": lambda values, words: {"T'": values[0] / values[1]},
     "slope of the onset map": lambda values, words: onset_map.NAMES | {"T'": values[0]},
     "growth of the slope": lambda values, words: onset_map.NAMES,
-    "pull and pressure": lambda values, words: {"q": Of(s, words["q"].expression.subs(q_0, 0))},
-    "before": lambda values, words: balance.NAMES,
     "standing still": lambda values, words: balance.NAMES,
     "adhesive_onset": named("g_d", "[F]"),
     "snap_onset": named("q_d", "[F]"),

@@ -143,6 +143,26 @@ def test_fractions_of_a_law_over_a_contact_are_as_good(carry):
     assert np.allclose(got[index, 1] + got[index, 2], wide, rtol=1e-11, atol=0)
 
 
+@pytest.mark.parametrize("T_sigma", [0.0, 1e-7])
+def test_where_pressure_right_after_entry_passes_a_jump_carried_friction_has_a_kink(T_sigma):
+    material, theta, memory = (
+        hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma),
+        np.linspace(0.05, 3.1, 201),
+        LARGE.k * 2e-3 * T_sigma,
+    )
+    D = np.full(201, 0.4 * LARGE.h)
+    columns = LevelBatch(material, WEAK, LARGE, "continuous", "unloading", np.full(201, 2e-3), D)
+    index, contact = columns.solve(np.arange(201), theta).touching
+    p = contact.entered(np.full(index.size, 5 * memory))
+    law = _stepwise(0.5 * (np.nanmin(p) + np.nanmax(p)), 1e4, 6e4)
+    columns = replace(columns, carry=LowerLevelLaws(law, RTOL, SCALES), group=np.zeros(201, int))
+    (kink,) = columns.kinks(theta, theta[None])
+    beside = kink + np.linspace(-0.06, 0.06, 31)
+    bends = np.abs(np.diff(columns.evaluate(np.arange(31), beside)[1][:, 4], 2))
+    assert abs(bends.argmax() - 14) < 8 and bends.max() > 10 * np.median(bends)
+    assert np.isnan(replace(columns, carry=None).kinks(theta, theta[None])).all()
+
+
 def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(carry):
     columns, theta = _solved(2e-3)
     strips = columns.solve(np.arange(columns.size), theta)

@@ -146,9 +146,6 @@ MUTANTS: tuple[Mutant, ...] = (
     m("stability", "onset_map.py", "(1 + M_step / M)\n", "(1 - M_step / M)\n", "slope of the onset map"),
     m("stability", "onset_map.py", "before[-1] - left_over", "before[-1] + left_over", "slope of the onset map"),
     m("stability", "onset_map.py", "ended = -M / at_a", "ended = M / at_a", "growth of the slope"),
-    m("stability", "balance.py", "- alpha * begun.subs(s, s_1)", "+ alpha * begun.subs(s, s_1)", "pull and pressure"),
-    m("stability", "balance.py", "(sp.exp(-(s_1 - s_0) / beta) - 1)", "(sp.exp(-(s_1 - s_0) / beta) + 1)", "before contact"),
-    m("stability", "balance.py", "cosine = sp.cos(d) - jump", "cosine = sp.cos(d) + jump", "before onset"),
     m("stability", "balance.py", "(p_0 - jump) * c - (1 - J)", "(p_0 - jump) * c + (1 - J)", "standing still"),
     # complete contact, levels
     m("complete contact", "saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q", "complex modulus"),
@@ -241,14 +238,6 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("display", "zones.py", r"u(s) = D - 1 + \cos s", r"u(s) = D - 1 - \cos s", "profile", "displays"),
     m("display", "flows.py", r"w(s) = p + (w_0 - p)", r"w(s) = p - (w_0 - p)", "relaxation flow", "displays"),
-    m(
-        "display",
-        "balance.py",
-        r"r - (D + p_0 - r) \left(",
-        r"r + (D + p_0 - r) \left(",
-        "before contact",
-        "displays",
-    ),
     m(
         "display",
         "multilevel.py",
@@ -467,8 +456,7 @@ def displayed(package: ModuleType) -> None:
     whole_level, stacked = part(package, "level").level(full.threshold.value)
     printed = part(package, "level").printed_equation_16(whole_level[2].exact)
     kernels = (*part(package, "zones").rigid_profile(strip.u), *full.kernels, *whole_level)
-    closed = part(package, "balance").before_contact(flows)
-    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), stacked, printed, closed]
+    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), stacked, printed]
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     displays, words = part(package, "displays"), part(package, "vocabulary")
     displays.displays(steps, {}, words.vocabulary(flows, field), words.BINDINGS, displays.of_one_time)

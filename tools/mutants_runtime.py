@@ -351,13 +351,6 @@ MUTANTS = (
         "test_proofs.py",
     ),
     Mutant(
-        "onsets are later than the balance allows for",
-        "orbit/balance.py",
-        "longest = hi + np.minimum",
-        "longest = lo + np.minimum",
-        "test_proofs.py",
-    ),
-    Mutant(
         "a later onset forgets how early its adhesion may end",
         "orbit/sensitivity.py",
         "M = np.minimum(release_margin(kernel, cycle, left.c), release_margin(kernel, cycle, right.c))",

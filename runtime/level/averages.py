@@ -115,10 +115,9 @@ class Panels(Ranges):
         (state, low, first), (_, high, last) = ([v[np.lexsort((each[1], each[0]))] for v in each] for each in ends)
         return cls(low, high, state, first, last)
 
-    @property
-    def halves(self) -> Panels:
-        """Halves of each: all lower ones, then all upper ones."""
-        middle, none = 0.5 * (self.low + self.high), np.full(self.size, -1)
+    def split(self, middle: np.ndarray) -> Panels:
+        """Parts of each below and above the ``middle`` (m,): all lower ones, then all upper ones."""
+        none = np.full(self.size, -1)
         return Panels.joined([replace(self, high=middle, last=none), replace(self, low=middle, first=none)])
 
     def at(self, t: np.ndarray) -> np.ndarray:
@@ -177,10 +176,22 @@ class _Work:
             done = self._accept(stage, goal, ~changed)
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
-            (doubled if stage.n < _LAST else halved).append(stage)
-        parts = [self._divide(mixed, goal), *(stage.parts.halves for stage in halved)]
+            middle = self._middle(stage)
+            halves = ~np.isnan(middle)
+            doubled.append(stage.take(~halves))
+            halved.append(stage.parts.take(halves).split(middle[halves]))
+        parts = [self._divide(mixed, goal), *halved]
         left = [Stage(Panels.joined(parts), _FIRST), *doubled]
         return [stage for stage in left if stage.parts.size]
+
+    def _middle(self, stage: Stage) -> np.ndarray:
+        """Where panels (m,) are to be divided that twice the first nodes are not enough for; NaN: more nodes may do."""
+        panels, theta = stage.parts, stage.parts.at(interior_nodes(_FIRST))
+        if stage.n == _FIRST:
+            return np.full(panels.size, np.nan)
+        state = np.repeat(panels.state, theta.shape[1])
+        kinks = self.columns.at(state, self.columns.D[state]).kinks(theta.ravel(), theta)
+        return np.where(np.isnan(kinks) & (stage.n >= _LAST), 0.5 * (panels.low + panels.high), kinks)
 
     def _accept(self, stage: Stage, goal: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Add up the ``usable`` panels (m,) whose sums have converged, and with the spread of their values as error those of

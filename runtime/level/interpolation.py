@@ -205,9 +205,10 @@ class _Work:
         intervals, zones, nodes = stage.parts, stage.known[2], stage.parts.at(interior_nodes(stage.n))
         seen = [(k, each) for k, D in enumerate(nodes) for each in islands(int(intervals.column[k]), D, zones[k], goal[k])]
         found = locate_vanishing(self.columns, Islands.joined([each for _, each in seen])) if seen else np.empty(0)
-        parts = []
+        crest = self.columns.at(np.repeat(intervals.column, nodes.shape[1]), nodes.ravel())
+        parts, kinks = [], crest.kinks(np.zeros(nodes.size), nodes)
         for k in range(intervals.size):
-            rest, breaks = intervals.take([k]), [D for (i, _), D in zip(seen, found, strict=True) if i == k]
+            rest, breaks = intervals.take([k]), [D for (i, _), D in zip(seen, found, strict=True) if i == k] + [kinks[k]]
             apart, before = _APART * rest.width[0], len(parts)
             for D in np.sort(breaks):
                 if rest.low[0] + apart < D < rest.high[0] - apart:

@@ -23,6 +23,8 @@ _SHARE, _CHUNK = 0.1, 4096
 #: of their bounds, which have to hold for each, and along a law's pieces errors change sign; so much of a piece errs alike. With
 #: 0.3 and 0.05, as without adhesion, one of 25 surfaces is solved twice
 _CANCELLED, _SUMMED, _ALIKE = 0.08, 0.3, 0.02
+#: after how many memories pressure is as if it had stepped
+_MEMORIES = 5.0
 #: nodes of a part, tried in turn
 _NODES = (12, 20, 34, 54, 84)
 
@@ -48,22 +50,40 @@ class LowerLevelLaws:
     scales: np.ndarray
 
     def over_breaks(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Greatest pressure of each strip, then that at its entry, over the law's breaks, (m, k), Pa; NaN without contact."""
+        """Greatest pressure of each strip, then, of saturated contact, the least, over the law's breaks, (m, k), Pa; else NaN."""
         out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
         index, contact = strips.touching
         if index.size:
-            breaks = self.laws.breaks[group[index]]
-            # many contacts begin at ``-p_0``, all along y, where a law may let go too: rounding must not decide which pass that
-            entry = contact.p_entry + 1e-9 * np.abs(contact.p_entry)
-            out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, entry)], axis=1)
+            least = np.where(contact.full, contact.p_entry, np.nan)
+            out[index] = np.concatenate([p[:, None] - self.laws.breaks[group[index]] for p in (contact.p_peak, least)], axis=1)
         return out
+
+    def kinks(self, strips: SolvedStrips, group: np.ndarray, memory: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """Where along lines of strips, at places ``x`` (m, n), what they carry all but has a kink, (m,): where pressure right
+        after entry passes the greatest of the jumps of the law that it passes; NaN if none.
+
+        Within a few times the shortest ``memory`` (m n,), in phase, pressure rises all but at once to what decides how far on it
+        passes a break: on one side of such a place that is next to entry. Without memory it steps there, and that is a kink."""
+        over, (index, contact), line = (
+            np.full((group.size, self.laws.breaks.shape[1]), np.nan),
+            strips.touching,
+            np.arange(len(x)),
+        )
+        over[index] = contact.entered(_MEMORIES * memory[index])[:, None] - self.laws.breaks[group[index]]
+        over = over.reshape(*x.shape, over.shape[1])
+        jumps = (over[:, 1:] * over[:, :-1] < 0) * self.laws.at_breaks[0][group].reshape(over.shape)[:, 1:]
+        at = jumps.max(axis=2).argmax(axis=1)
+        which = jumps[line, at].argmax(axis=1)
+        first, last = over[line, at, which], over[line, at + 1, which]
+        share = np.divide(first, first - last, out=np.full(len(x), np.nan), where=jumps[line, at, which] > 0)
+        return x[line, at] + share * (x[line, at + 1] - x[line, at])
 
     @staticmethod
     def crossed(over_breaks: np.ndarray) -> np.ndarray:
         """Codes (m,) of the law breaks that each strip's pressure passes, from its ``over_breaks``: how many breaks its greatest
-        exceeds, and how many it exceeds at entry."""
-        top, entry = (np.count_nonzero(half > 0, axis=1) for half in np.split(over_breaks, 2, axis=1))
-        return np.where(np.isnan(over_breaks[:, 0]), 0, 1 + top + (over_breaks.shape[1] // 2 + 1) * entry)
+        exceeds, and how many its least."""
+        top, least = (np.count_nonzero(half > 0, axis=1) for half in np.split(over_breaks, 2, axis=1))
+        return np.where(np.isnan(over_breaks[:, 0]), 0, 1 + top + (over_breaks.shape[1] // 2 + 1) * least)
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""

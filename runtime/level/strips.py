@@ -150,8 +150,8 @@ class LevelBatch:
         return foundation.strips(self.level.k * V, D / A, p_0 / A, delta_0 / A, self.edge, snaps)
 
     def evaluate(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
-        """Of the strips at ``theta``: codes (m,), values to average (m, q), pressures, the greatest and at entry, over breaks of
-        the law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
+        """Of the strips at ``theta``: codes (m,), values to average (m, q), the greatest pressure, and the least of saturated
+        contact, over breaks of the law below (m, k), or NaN, and the edges d, b, a, c (m, 4), NaN where there are none."""
         strips = self.solve(column, theta)
         s, (codes, over_breaks) = strips.solved, self._codes(strips, column)
         values = np.column_stack((strips.p_mean, strips.tau_mean, s.contact_fraction, s.adhesion_fraction))
@@ -169,6 +169,14 @@ class LevelBatch:
             return codes, np.empty((codes.size, 0))
         over_breaks = self.carry.over_breaks(strips, self.group[column])
         return codes + len(CODE) * self.carry.crossed(over_breaks), over_breaks
+
+    def kinks(self, theta: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """Where along lines, with points at ``x`` (m, n), of strips at ``theta`` of these columns (m n,) what they carry all but
+        has a kink, (m,); NaN if nowhere (``LowerLevelLaws.kinks``)."""
+        if self.carry is None or self.adhesion.p_0 == 0 or not self.size:
+            return np.full(len(x), np.nan)
+        memory = self.level.k * self.V * np.min(foundation_of(self.material).times)
+        return self.carry.kinks(self.solve(np.arange(self.size), theta), self.group, memory, x)
 
     @property
     def frictions(self) -> np.ndarray:

@@ -55,6 +55,11 @@ class Contact:
         self.p_entry[rises] = ((self.q_b - strips.p_0) * unit)[rises]
         self.p_exit = np.where(self.full, self.p_entry, -strips.p_0 * unit)
 
+    def entered(self, after: np.ndarray) -> np.ndarray:
+        """Pressures, Pa, so much ``after`` entry in phase, (m,); NaN where that is half-way to the peak, or contact saturated."""
+        soon = ~self.full & (after < 0.5 * (self.top - self.b))
+        return np.where(soon, np.where(after > 0, self.pressure(np.arange(after.size), self.b + after), self.p_entry), np.nan)
+
     def _excess(self, rows: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Pressure above -p_0 in partial contact, in the strip's own unit, and its slope, at phases (m,) or (nodes, m)."""
         constants = [pick(constant, rows) for constant in self.constants]

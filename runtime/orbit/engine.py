@@ -18,7 +18,6 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 import numpy as np
 
-from .balance import exclude_out_of_reach
 from .certificate import STABLE, attracting, edges_admissible, greatest_gap, saturates, stable
 from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
@@ -141,9 +140,6 @@ class _Batch:
         orbits: of the most engaged state, for ``loading`` of the least engaged one."""
         kernel, last, s, known = self.kernel, not self.unloading, cycle.strips, Orbit.blank(cycle.size)
         none, proven = (cycle.half_d <= 0) | np.isinf(bounds.x), np.zeros(cycle.size, bool)
-        hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (not last))
-        if hanging.size:
-            none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
         # where D <= -p_0 nothing touches (``orbit_bounds``)
         zones = {"acaf": ~cycle.direct & (s.D > -s.p_0), "afc": cycle.direct, "af": ~cycle.direct & ~cycle.touched}
         for sequence, may_be in zones.items():
