@@ -21,14 +21,14 @@ def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLi
     known, mine = _read(out), _origin(out, source)
     for name in names:
         if (out / name).is_dir():
-            raise InputError("--out", str(out), f"another folder: {name} in it is a folder, not a file to replace")
+            raise InputError("out", str(out), f"another folder: {name} in it is a folder, not a file to replace")
         if name.endswith(".csv") and (out / name).is_file() and read_at_most(out / name, 8) != b"# hystrip":
-            raise InputError("--out", str(out), f"another folder: {name} in it was not written by this version of hystrip")
+            raise InputError("out", str(out), f"another folder: {name} in it was not written by this version of hystrip")
         for there, other in known.items():
             # names that differ in case alone are one on some file systems
             if there.casefold() == name.casefold() and (there, other) != (name, mine) and (out / there).exists():
                 said = f"another folder: {there} in it was made from {other}, this would be from {mine}"
-                raise InputError("--out", str(out), said + (f", as {name}" if there != name else ""))
+                raise InputError("out", str(out), said + (f", as {name}" if there != name else ""))
 
 
 @contextlib.contextmanager

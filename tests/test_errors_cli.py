@@ -83,7 +83,7 @@ CALLS = [
     (["sweep", "paper_fig7", "--batch", "0"], ["hystrip: --batch: got 0", ">= 1"]),
     (["sweep", "paper_fig7", "--over", "levels[9].h=1"], ["hystrip: --over: got 'levels[9].h'", "one of levels[0].l"]),
     (["sweep", "paper_fig7", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
-    (["sweep", "paper_fig7", "--scheduler", "nonsense"], ["--scheduler", "nonsense"]),
+    (["sweep", "paper_fig7", "--scheduler", "nonsense"], ["hystrip: scheduler nonsense: no Dask scheduler answers"]),
     (["sweep", "paper_fig7", "--scheduler", ""], ["hystrip: --scheduler: got ''", "the address of a Dask scheduler"]),
     (["figures", "fig9"], ["figures", "fig9", "fig3"]),
     (["show", "paper_fig7", "--level", "4"], ["--level", "4", "1 to 3"]),
@@ -101,6 +101,7 @@ CALLS = [
     pytest.param(["levels", "absent.nc", "--pressure", "1 MPa"], ["absent.nc", "a measured surface"], marks=scans),
     (["audit", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
     (["regenerate", "binary.toml", "--out", "solver"], ["binary.toml"]),
+    (["sweep", "keys.toml"], ["hystrip: keys.toml: batch: unknown key"]),  # of the scene, not the option --batch
 ]
 OUT = {"solve": 1, "sweep": 1, "show": 1, "figures": 0, "master": 1, "fit": 1, "levels": 1, "regenerate": 0, "audit": 0}
 CALLS += [([name, *["paper_fig7"] * count, "--out", ""], ["'--out'", "got ''", "a folder"]) for name, count in OUT.items()]
@@ -133,6 +134,7 @@ def test_wrong_scene(run, tmp_path, old, new, said):
 def test_wrong_call(run, tmp_path, arguments, said):
     (tmp_path / "folder").mkdir()
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    (tmp_path / "keys.toml").write_text(f"batch = 3\n{ONE_LEVEL}")
     message = fails(run, tmp_path, arguments)
     for part in said:
         assert part in message

@@ -324,6 +324,25 @@ def test_finished_batches_are_kept_and_damaged_ones_solved_again(scene, tmp_path
     assert hystrip.sweep(scene, over={"material.K": [2e9]}, out=tmp_path / "out", restart=True).kept == 0
 
 
+def test_in_python_arguments_have_no_names_of_options(scene, tmp_path):
+    (tmp_path / "file").touch()
+    for wrong in (b"out", tmp_path / "file", ""):
+        with pytest.raises(hystrip.InputError, match="^out: got "):
+            hystrip.sweep(scene, out=wrong)
+    (tmp_path / "s.sweep.csv").write_text("measured, by hand")
+    with pytest.raises(hystrip.InputError, match="^out: got .*another folder: s.sweep.csv"):
+        hystrip.sweep(scene, out=tmp_path)
+    hystrip.sweep(scene, out=tmp_path / "out")
+    with pytest.raises(hystrip.InputError, match="^out: got .*restart=True"):
+        hystrip.sweep(scene, over={"material.K": [2e9]}, out=tmp_path / "out")
+
+
+@pytest.mark.parametrize("given", [{"batch": 0}, {"combine": "both"}])
+def test_arguments_are_none_of_the_scene(scene, tmp_path, given):
+    with pytest.raises(hystrip.InputError, match=f"^{next(iter(given))}: got "):
+        hystrip.sweep(scene, out=tmp_path / "out", **given)
+
+
 def test_partial_contact_batches_do_not_depend_on_what_was_solved_before(tmp_path):
     path = tmp_path / "p.toml"
     path.write_text(

@@ -76,7 +76,7 @@ def test_no_scheduler_is_one_sentence(tmp_path, address):
 
 
 def test_a_cluster_without_tls_set_up_is_one_sentence():
-    with pytest.raises(hystrip.HystripError, match="--scheduler tls://.*answers .TLS expects"), dask("tls://127.0.0.1:9"):
+    with pytest.raises(hystrip.HystripError, match="^scheduler tls://.*answers .TLS expects"), dask("tls://127.0.0.1:9"):
         pass
 
 

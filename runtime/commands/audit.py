@@ -26,10 +26,10 @@ def command(out: Path = out_option("Folder to write into; without it, the instal
     from .measurements.measured import measured
 
     folder = out if out is not None else Path(hystrip.generated.__file__).parent / "audit"
-    refuse_unwritable(folder, "--out")
+    refuse_unwritable(folder, "out")
     remove_left_folders(folder)
     if (folder / "index.html").exists() and not (folder / "measured.json").exists():
-        raise InputError("--out", str(folder), "another folder: index.html in it was not written by `hystrip audit`")
+        raise InputError("out", str(folder), "another folder: index.html in it was not written by `hystrip audit`")
     try:
         with progress("auditing") as report:
             hystrip.derivation.audit(folder, progress=report, measure=measured)

@@ -29,8 +29,10 @@ def _status() -> int:
         _show_warnings()
         require("typer", "cli", "the command line")
         from .app import build
+        from .options import as_options
 
-        build()(prog_name="hystrip", standalone_mode=True)
+        with as_options({"out": "--out"}):  # most commands have it
+            build()(prog_name="hystrip", standalone_mode=True)
     except Terminated:
         _say("terminated")
         return TERMINATED

@@ -78,7 +78,7 @@ def command(
         if over is not None:
             number("length", over, "m", 0, strict=True)
         measured, shift = read_dma(data, temperature_set, decimal, shear), read_shift(data)
-    refuse_unwritable(out, "--out")
+    refuse_unwritable(out, "out")
     text = _checked(scene, given, shift, source) if writes_scene else ""
     names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)

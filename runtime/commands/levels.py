@@ -65,7 +65,7 @@ def command(
         require("matplotlib", "plot", "drawing (or give --no-plot)")
     limits = {"longest": quantity(longest, "m", "--longest"), "shortest": quantity(shortest, "m", "--shortest")}
     given = settings(scene, quantity(pressure, "Pa", "--pressure"), title, f"Surface of {surface.name}")
-    refuse_unwritable(out, "--out")
+    refuse_unwritable(out, "out")
     names = [f"{surface.stem}.{part}" for part in ("levels.toml", *["spectrum.png"] * plot)]
     refuse_other_origin(out, names, surface)
     with located(scene):

@@ -42,7 +42,7 @@ def command(
     T_ref = quantity(reference, "K", "--reference")
     with as_options(_OPTIONS):
         isotherms = read_isotherms(data, decimal, shear)
-    refuse_unwritable(out, "--out")
+    refuse_unwritable(out, "out")
     names = [f"{data.stem}.{part}" for part in ("master.csv", "shifts.csv", *["master.png"] * plot)]
     refuse_other_origin(out, names, data)
     with as_options(_OPTIONS):

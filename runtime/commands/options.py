@@ -8,15 +8,16 @@ from typing import Any
 import typer
 
 from ..errors import InputError
+from ..scene.errors import SceneError
 
 
 @contextlib.contextmanager
 def as_options(options: Mapping[str, str]) -> Iterator[None]:
-    """Have an ``InputError`` about an argument name its option: ``options``, argument -> option."""
+    """Have an ``InputError`` about an argument, but for keys of a scene, name its option: ``options``, argument -> option."""
     try:
         yield
     except InputError as error:
-        if error.field not in options:
+        if error.field not in options or isinstance(error, SceneError):
             raise
         raise InputError(options[error.field], error.value, error.allowed) from None
 

@@ -23,19 +23,19 @@ def command(
     from .progress import progress
 
     if model is not None and out is None:
-        raise InputError("--out", None, "a folder for the solver of your model")
+        raise InputError("out", None, "a folder for the solver of your model")
     import hystrip.derivation
     import hystrip.generated
 
     folder = out if out is not None else Path(hystrip.generated.__file__).parent
-    refuse_unwritable(folder, "--out")
+    refuse_unwritable(folder, "out")
     remove_left_folders(folder)
     models = models_of(model)
     try:
         hystrip.derivation.stored_bounds(folder)
     except (ValueError, TypeError, KeyError, AttributeError):
         allowed = "a new folder, or one whose certificates.json is as `hystrip regenerate` writes it"
-        raise InputError("--out", str(folder), allowed) from None
+        raise InputError("out", str(folder), allowed) from None
     # a short-lived process that makes millions of small expressions: looking for cycles among them is a good part of its time
     gc.set_threshold(500_000, 20, 20)
     try:
@@ -45,7 +45,7 @@ def command(
         failure = InputError("MODEL", str(model), f"an admissible model: {error}") if model else HystripError(str(error))
         raise failure from None
     except FileExistsError as error:
-        raise InputError("--out", str(folder), f"a folder that is new or holds a solver: {error}") from None
+        raise InputError("out", str(folder), f"a folder that is new or holds a solver: {error}") from None
     except hystrip.derivation.CertificateError as error:
         raise HystripError(str(error)) from None
     say(f"wrote {folder}")

@@ -42,7 +42,7 @@ def command(
     names = {kind: f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind in wanted if wanted[kind]}
     if names:
         require("matplotlib", "plot", "drawing")
-        refuse_unwritable(out, "--out")
+        refuse_unwritable(out, "out")
     y = quantity(strip, "m", "--strip") or 0.0
     refuse_other_origin(out, [*names.values()], case.source)
     result = point_of(case, pressure, velocity)

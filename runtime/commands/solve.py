@@ -39,7 +39,7 @@ def command(
     if netcdf:
         require("xarray", "dataset", "writing netCDF")
         require("h5netcdf", "dataset", "writing netCDF")
-    refuse_unwritable(out, "--out")
+    refuse_unwritable(out, "out")
     names = [f"{case.name}.{suffix}" for suffix in ("csv", *["nc"] * netcdf, *["png"] * draws)]
     refuse_other_origin(out, names, case.source)
     with progress(case.title or case.name) as report:

@@ -77,7 +77,7 @@ def _refuse_changed_solver(task: Task) -> None:
     folder = task.base["material"]["solver"]
     if solver_key(folder) != task.solver:
         changed = f"material.solver: the code in {folder} changed while the sweep ran"
-        raise HystripError(f"{changed}: put it back, or run the sweep with --restart")
+        raise HystripError(f"{changed}: put it back, or run the sweep with restart=True (--restart)")
 
 
 def _solve(

@@ -115,13 +115,13 @@ def dask(address: str) -> Iterator[tuple[Executor, int]]:
     try:
         client = Client(address, timeout=10, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:  # the last without a configuration of TLS
-        raise HystripError(f"--scheduler {address}: no Dask scheduler answers ({str(error) or type(error).__name__})") from None
+        raise HystripError(f"scheduler {address}: no Dask scheduler answers ({str(error) or type(error).__name__})") from None
     with _quiet("distributed", "distributed.client", "tornado.application"):
         try:
             threads = sum(client.nthreads().values())
             yield client.get_executor(retries=3), max(2 * threads, 8)
         except distributed.KilledWorker as error:
-            raise HystripError(lost(f"--scheduler {address}: {error}")) from None
+            raise HystripError(lost(f"scheduler {address}: {error}")) from None
         finally:
             client.close(timeout=5)
 

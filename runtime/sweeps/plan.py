@@ -142,6 +142,15 @@ def _last(key: str) -> str:
     return key.rsplit(".", 1)[-1].partition("[")[0]
 
 
+def check_combination(combine: Any, batch: Any) -> tuple[str, int | None]:
+    """How points are combined, and how many are a batch. Raises ``InputError``."""
+    if not isinstance(combine, str) or combine not in ("grid", "list"):
+        raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
+    if batch is not None:
+        batch = integer("batch", batch, 1, math.inf, "an integer >= 1, points that are solved and stored together")
+    return combine, batch
+
+
 def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], combine: str | None, batch: int | None) -> Plan:
     """The sweep of a validated scene, with the values in ``over`` (dotted key -> values in SI) in place of the scene's."""
     values = copy.deepcopy(values)
@@ -152,12 +161,9 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     _give_way(values["adhesion"] or {}, over)
     refuse_ambiguous(values)
     settings = values["sweep"] or {"combine": "grid", "batch": None}
-    combine = settings["combine"] if combine is None else combine
-    batch = settings["batch"] if batch is None else batch
-    if not isinstance(combine, str) or combine not in ("grid", "list"):
-        raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
-    if batch is not None:
-        batch = integer("batch", batch, 1, math.inf, "an integer >= 1, points that are solved and stored together")
+    combine, batch = check_combination(
+        settings["combine"] if combine is None else combine, settings["batch"] if batch is None else batch
+    )
     half_space = is_half_space(values)
     axes = tuple(Axis(key, each, unit_of(key, half_space)) for key, each in quantities(values) if each.ndim)
     _refuse_hopeless(values, {axis.key for axis in axes})

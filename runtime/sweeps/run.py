@@ -23,7 +23,7 @@ from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
 from .executors import check_workers, dask, give_up, local, lost
 from .notes import notes_of
-from .plan import Plan, plan_of
+from .plan import Plan, check_combination, plan_of
 from .sizing import blocks, first_size, next_size
 from .store import Store
 from .variables import table, variables
@@ -162,6 +162,7 @@ def sweep(
         raise InputError("over", over, "a dict of dotted key of the scene -> values in SI")
     if scheduler is not None and not (isinstance(scheduler, str) and scheduler):
         raise InputError("scheduler", scheduler, "the address of a Dask scheduler, such as 'tcp://host:8786'")
+    check_combination("grid" if combine is None else combine, batch)  # arguments, not keys of the scene
     restart, allow_solver = truth("restart", restart), truth("allow_solver", allow_solver)
     if progress is not None and not callable(progress):
         raise InputError("progress", progress, "a function of the points done and their total")
@@ -171,8 +172,8 @@ def sweep(
         resolve_solver(values, os.fspath(scene), allow_solver)
     with located(os.fspath(scene)) if not over else contextlib.nullcontext():
         plan = plan_of(values, name, text, dict(over or {}), combine, batch)
-    folder, done = path_of(out, "--out", "a folder"), f"{name}.sweep.csv"
-    refuse_unwritable(folder, "--out")
+    folder, done = path_of(out, "out", "a folder"), f"{name}.sweep.csv"
+    refuse_unwritable(folder, "out")
     refuse_other_origin(folder, [done], scene)
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError("executor", executor, "anything with the concurrent.futures interface")
@@ -245,7 +246,7 @@ class _Run:
         finally:
             give_up(executor, running)
         if fresh_code_key() != code_key():
-            raise HystripError("the installed hystrip changed while the sweep ran: run the sweep with --restart")
+            raise HystripError("the installed hystrip changed while the sweep ran: run the sweep with restart=True (--restart)")
 
     def _missing(self, block: _Block) -> bool:
         """Go on to the first batch of a block that is not on disk; False if all are."""

@@ -54,8 +54,8 @@ class Store:
             theirs = self._plan().get("fingerprint")
             if theirs != self.fingerprint and (theirs is not None or parts):
                 held = "these are of another scene or version" if theirs else "these are parts without a plan"
-                raise InputError("--out", str(self.folder), f"results of this very sweep; {held} "
-                                 "(--restart deletes them, or give another --out)")  # fmt: skip
+                raise InputError("out", str(self.folder), f"results of this very sweep; {held} "
+                                 "(restart=True (--restart) deletes them; or give another folder)")  # fmt: skip
         for left in self.folder.glob("*.tmp"):
             left.unlink(missing_ok=True)
         _write(plan, json.dumps({"fingerprint": self.fingerprint, "run": self._run, **self._about}, indent=1))
