@@ -57,6 +57,17 @@ def test_paths_with_and_without_the_family_of_strips_agree(monkeypatch):
     assert slow.tau_by_level == pytest.approx(fast.tau_by_level, rel=3e-5)
 
 
+def test_glassy_modulus_is_that_of_fast_deformation():
+    """The limit of E(i omega), and of the foundation of every level."""
+    material = hystrip.HalfSpace(E=2e6, nu=0.3, moduli=[8e6, 3e6, 5e7], times=[1e-3, 1e-5, 1e-8])
+    fast = 1j * 1e16 * np.array(material.times)
+    assert material.E_glassy == pytest.approx(abs(material.E + fast / (1 + fast) @ np.array(material.moduli)), rel=1e-14)
+    assert material.E_glassy == material.modulus.K_glassy
+    local = material.at_wavelength(1e-4)
+    assert local.K_glassy / local.K == pytest.approx(material.E_glassy / material.E, rel=1e-14)
+    assert hystrip.HalfSpace(E=2e6, nu=0.3).E_glassy == 2e6
+
+
 def test_saturation_is_seen_level_by_level():
     """Just above the threshold of the closed form every level is saturated by itself at the least pressure above it."""
     result = hystrip.solve(RUBBER, NONE, LEVELS, pressure=1e12, velocity=0.02)
