@@ -327,6 +327,73 @@ def test_what_no_rubber_has_is_remarked_on(tmp_path, names, cells, said):
         read_readings(written(tmp_path, text))
 
 
+#: moduli, and what follows from them exactly: tan delta, delta in degrees, the absolute value
+ALL = [
+    (f, E, loss, loss / E, np.degrees(np.arctan(loss / E)), np.hypot(E, loss)) for f, E, loss in ((0.5, 1.5, 0.25), (5, 3, 0.75))
+]
+NAMES = "f [Hz];E' [MPa];E'' [MPa];tan delta;delta [°];E* [MPa]"
+
+
+@pytest.mark.parametrize(
+    ("names", "cells"),
+    [
+        (NAMES, ALL),
+        (NAMES, [(0.5, 1.5, 0.2, 0.17, 9.5, 1.52), (5, 3, 0.8, 0.25, 14, 3.1)]),  # the loss to one digit
+        (NAMES, [(0.5, 1.5, 0.25, 0.2, 9, 2), (5, 3, 0.75, "2E-1", 14, "0.3e1")]),  # the others to one
+        (NAMES, [(0.5, 1.5, 0.25, 0.172, 9.7, 1.55), (5, 3, 0.75, 0.243, 13.7, 3.0)]),  # 3 % of scatter
+        (NAMES.replace("tan delta", "tan delta [%]"), [(0.5, 1.5, 0.25, 16.7, 9.46, 1.52), (5, 3, 0.75, "", "n/a", "-")]),
+        (
+            NAMES.replace("delta [°];E*", "delta;E*").replace("* [MPa]", "*"),
+            [(0.5, 1.5, 0.25, 0.167, 3, 3), (5, 3, 0.75, "x", 3, 3)],
+        ),
+        (
+            "f;E';E'';tan delta;delta;E*\nHz;MPa;MPa;%;rad;kPa",
+            [(0.5, 1.5, 0.25, 16.7, 0.165, 1521), (5, 3, 0.75, 25, 0.245, 3092)],
+        ),
+        ("f [Hz];E' [MPa];E'' [MPa];tan delta [V]", [(0.5, 1.5, 0.25, 3), (5, 3, 0.75, 3)]),
+    ],
+)
+def test_columns_that_agree_but_for_digits_and_scatter_are_not_remarked_on(tmp_path, names, cells):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        data = read_dma(written(tmp_path, f"{names}\n{rows(*cells)}"))
+    assert data.storage == pytest.approx([1.5e6, 3e6], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("names", "cells", "said"),
+    [
+        (
+            "f [Hz];E' [MPa];E'' [MPa];tan delta",
+            [(0.5, 1.5, 0.25, 0.167), (5, "3.000", "0.750", "0.350")],
+            r"""column 'tan delta': 1 of 2 rows contradict "E' \[MPa\]" and "E'' \[MPa\]", by up to 40 % of the tan delta that """
+            r"follows from these; the first, line 3, by \+40 %\.",
+        ),
+        ("f [Hz];E' [MPa];E'' [kPa];tan delta", [(0.5, 1.5, 250, 16.7), (5, 3, 750, 25.0)], "2 of 2 .* line 2, by .9900 %"),
+        (
+            "f [Hz];E' [MPa];E'' [MPa];tan delta",
+            [(0.5, 1.5, 0.25, 0.15), (5, "3.00", "0.750", "0.20")],
+            "1 of 2 .* line 3, by -20 %",
+        ),
+        ("f;E';E'';tan delta\nHz;MPa;MPa;%", [(0.5, 1.5, 0.25, 0.167), (5, 3, 0.75, 0.25)], "2 of 2 .* line 3, by -99 %"),
+        (
+            "f [Hz];E' [MPa];tan delta;delta [rad]",
+            [(0.5, 1.5, 0.2, 0.2), (5, 3, 0.25, 0.345)],
+            "'delta .rad.'.* line 3, by .44 %",
+        ),
+        ("f [Hz];E' [MPa];E'' [MPa];delta [°]", [(0.5, 1.5, 0.25, "-9.5"), (5, 3, 0.75, 104)], "2 of 2 .* line 2, by -200 %"),
+        (
+            "f [Hz];E' [MPa];E'' [MPa];E* [kPa]",
+            [(0.5, 1.5, 0.25, 1700), (5, 3, 0.75, 3092)],
+            r"'E\* .* of the \|E\*\| .* 2, by .12 %",
+        ),
+    ],
+)
+def test_columns_that_contradict_each_other_are_remarked_on(tmp_path, names, cells, said):
+    with pytest.warns(hystrip.dma.DataWarning, match=said):
+        read_dma(written(tmp_path, f"{names}\n{rows(*cells)}"))
+
+
 STRAINS = "f [Hz];Strain [%];E' [MPa];E'' [MPa];T [°C];note\n" + "".join(
     f"{f};{strain};{E};0.3;{T};\n" for T in (20, 40) for f in (1, 10, 100) for strain, E in ((0.1, 3), (1, 2.4), (10, 1.5))
 )

@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..inputs.checks import truth
 from ..inputs.shift import WLF, Arrhenius, Shift
 from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
+from .contradictions import remark_on_contradictions
 from .modulus import DynamicModulus
 from .pairs import PAIRS, in_range, moduli
 from .plausibility import remark_on, remark_on_loss, remark_on_repeats, remark_on_temperatures
@@ -52,8 +53,9 @@ def read_dma(
     InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
         allowed
 
-    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give; and of rows at one
-    frequency with different moduli, as in sweeps of strain.
+    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give; of tan delta, delta
+    or absolute values that contradict the two columns that are used; and of rows at one frequency with different moduli, as in
+    sweeps of strain.
     """
     readings = read_readings(path, decimal, shear)
     rows, sets = np.arange(readings.omega.size), readings.sets()
@@ -107,6 +109,8 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
     temperature = to_kelvin(values["temperature"], chosen["temperature"], where) if "temperature" in chosen else None
     remark_on(where, next(column for role, column in chosen.items() if role in ("storage", "loss", "absolute")), storage)
     remark_on_loss(where, chosen[pair[1]], loss / storage)
+    below = [] if rows is table.rows else table.rows[0][1]
+    remark_on_contradictions(table, kept, below, columns, [chosen[role] for role in pair], comma)
     if temperature is not None:
         remark_on_temperatures(where, chosen["temperature"], temperature)
     cells = lambda at: np.array([table.cell(row, at) for _, row in kept], object)  # noqa: E731

@@ -210,6 +210,12 @@ def as_number(text: str, comma: bool) -> float:
     return float(text or "nan")
 
 
+def last_digit(text: str, comma: bool) -> float:
+    """What a one in the place of the last digit of a number is worth. Raises ``ValueError`` where that is no number."""
+    mantissa, _, exponent = text.casefold().partition("e")
+    return float(f"1e{int(exponent or 0) - len(mantissa.partition(',' if comma else '.')[2])}")
+
+
 def _text(where: str) -> str:
     try:
         data = read_at_most(where, _LARGEST)
