@@ -100,6 +100,12 @@ def test_what_stands_first_behind_the_sign_of_a_remark_is_a_column_too(tmp_path)
     assert readings.temperature == pytest.approx([293.15, 293.25])
 
 
+@pytest.mark.parametrize("unit", ["° C", "º C", "deg C", "°C"])
+def test_a_degree_may_have_a_blank(tmp_path, unit):
+    export = f"Temp. ({unit});f (Hz);E' (MPa);E'' (MPa)\n20,0;0,5;1,5;0,25\n20,1;5;3;0,75\n"
+    assert read_dma(written(tmp_path, export)).temperature == pytest.approx(293.2)
+
+
 def test_steps_of_temperature_may_have_tables_of_their_own(tmp_path):
     names = "Angular frequency;Storage modulus;Loss modulus;Temperature\nrad/s;MPa;MPa;°C\n"
     text = "".join(f"[step]\nFrequency sweep - {T}\n{names}1;3;1;{T}\n10;4;1;{T}\n\n" for T in (10, 20))
@@ -350,6 +356,8 @@ NAMES = "f [Hz];E' [MPa];E'' [MPa];tan delta;delta [°];E* [MPa]"
             "f;E';E'';tan delta;delta;E*\nHz;MPa;MPa;%;rad;kPa",
             [(0.5, 1.5, 0.25, 16.7, 0.165, 1521), (5, 3, 0.75, 25, 0.245, 3092)],
         ),
+        ("f [Hz];ω [1/s];E' [MPa];E'' [MPa]", [(0.5, "3.142", 1.5, 0.25), (5, "", 3, 0.75)]),
+        ("f [Hz];ω [Hz];E' [MPa];E'' [MPa]", [(0.5, 0.5, 1.5, 0.25), (5, 5, 3, 0.75)]),
         ("f [Hz];E' [MPa];E'' [MPa];tan delta [V]", [(0.5, 1.5, 0.25, 3), (5, 3, 0.75, 3)]),
     ],
 )
@@ -367,7 +375,7 @@ def test_columns_that_agree_but_for_digits_and_scatter_are_not_remarked_on(tmp_p
             "f [Hz];E' [MPa];E'' [MPa];tan delta",
             [(0.5, 1.5, 0.25, 0.167), (5, "3.000", "0.750", "0.350")],
             r"""column 'tan delta': 1 of 2 rows contradict "E' \[MPa\]" and "E'' \[MPa\]", by up to 40 % of the tan delta that """
-            r"follows from these; the first, line 3, by \+40 %\.",
+            r"follows; the first, line 3, by \+40 %\.",
         ),
         ("f [Hz];E' [MPa];E'' [kPa];tan delta", [(0.5, 1.5, 250, 16.7), (5, 3, 750, 25.0)], "2 of 2 .* line 2, by .9900 %"),
         (
@@ -380,6 +388,11 @@ def test_columns_that_agree_but_for_digits_and_scatter_are_not_remarked_on(tmp_p
             "f [Hz];E' [MPa];tan delta;delta [rad]",
             [(0.5, 1.5, 0.2, 0.2), (5, 3, 0.25, 0.345)],
             "'delta .rad.'.* line 3, by .44 %",
+        ),
+        (
+            "f [Hz];ω [rad/s];E' [MPa];E'' [MPa]",
+            [(0.5, "0.50", 1.5, 0.25), (5, "5.0", 3, 0.75)],
+            "'ω .* 'f .Hz.'.* line 2, by -84 %",
         ),
         ("f [Hz];E' [MPa];E'' [MPa];delta [°]", [(0.5, 1.5, 0.25, "-9.5"), (5, 3, 0.75, 104)], "2 of 2 .* line 2, by -200 %"),
         (

@@ -45,8 +45,8 @@ _TURNS = re.compile(r"rad|deg|rev|turn|rpm|rps|cyc|count")
 _RAISED = str.maketrans("⁻\u2212¹²³", "--123")
 _PRIMES = str.maketrans(dict.fromkeys("″“”", '"') | dict.fromkeys("′’´`‘", "'"))
 _KELVIN = ("K", "kelvin", "degK")
-_CELSIUS = ("C", "°C", "ºC", "degC", "deg C", "celsius", "℃")
-_FAHRENHEIT = ("F", "°F", "degF", "deg F", "fahrenheit")
+_CELSIUS = ("C", "°C", "ºC", "degC", "celsius", "℃")
+_FAHRENHEIT = ("F", "°F", "ºF", "degF", "fahrenheit")
 
 
 @dataclass(frozen=True)
@@ -151,11 +151,12 @@ def _one(column: Column, where: str) -> float:
 
 def to_kelvin(values: np.ndarray, column: Column, where: str) -> np.ndarray:
     """Temperatures in K. Raises ``InputError`` for a unit that is none of temperature, or for values not above zero."""
-    if column.unit in _KELVIN:
+    unit = column.unit.replace(" ", "")  # ° C
+    if unit in _KELVIN:
         kelvin = values
-    elif column.unit in _CELSIUS:
+    elif unit in _CELSIUS:
         kelvin = values + 273.15
-    elif column.unit in _FAHRENHEIT:
+    elif unit in _FAHRENHEIT:
         kelvin = (values + 459.67) / 1.8
     else:
         raise InputError(f"{where}, column {column.name!r}, unit", column.unit or None, "K, °C or °F")

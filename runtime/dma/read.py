@@ -53,9 +53,9 @@ def read_dma(
     InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
         allowed
 
-    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give; of tan delta, delta
-    or absolute values that contradict the two columns that are used; and of rows at one frequency with different moduli, as in
-    sweeps of strain.
+    Warns (``hystrip.dma.DataWarning``) of moduli, losses and temperatures of no rubber, as wrong units give; of tan delta, delta,
+    absolute values or angular frequencies that contradict the columns that are used; and of rows at one frequency
+    with different moduli, as in sweeps of strain.
     """
     readings = read_readings(path, decimal, shear)
     rows, sets = np.arange(readings.omega.size), readings.sets()
@@ -110,7 +110,7 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
     remark_on(where, next(column for role, column in chosen.items() if role in ("storage", "loss", "absolute")), storage)
     remark_on_loss(where, chosen[pair[1]], loss / storage)
     below = [] if rows is table.rows else table.rows[0][1]
-    remark_on_contradictions(table, kept, below, columns, [chosen[role] for role in pair], comma)
+    remark_on_contradictions(table, kept, below, columns, [chosen[role] for role in (used[0].role, *pair)], comma)
     if temperature is not None:
         remark_on_temperatures(where, chosen["temperature"], temperature)
     cells = lambda at: np.array([table.cell(row, at) for _, row in kept], object)  # noqa: E731
