@@ -480,3 +480,63 @@ def test_steps_of_the_example_are_named_and_their_files_documented(files, run, t
         assert f"hystrip {step}" in said and run(*step.split(), *["--scene", "scene.toml"] * step.startswith("levels"))[0] == 0
     written = [path.name.split(".", 1)[1] for path in (tmp_path / "hystrip-out").glob("[!.]*")]
     assert len(written) == 5 and all(f"`name.{part}`" in page for part in written)
+
+
+MATRIX = [[f"{np.sin(0.7 * i) + np.cos(0.3 * i * j):.3f}" for j in range(16)] for i in range(16)]
+LINE = [[f"{i / 1000}", f"{np.sin(0.7 * i):.3f}"] for i in range(24)]
+GIVEN = {"unit": "um", "sizes": (16, 16)}
+
+
+@pytest.mark.parametrize("mark", ["***", "-", "#N/A", "1.2.3"])
+@pytest.mark.parametrize("row", [0, 9, 15])
+@pytest.mark.parametrize("separator", [" ", "\t", ";", ","])
+def test_a_row_with_a_mark_of_no_number_is_named(tmp_path, mark, row, separator):
+    """Readers drop it: the other rows stood closer, over the same length."""
+    pytest.importorskip("SurfaceTopography")
+    rows = [separator.join(each[:5] + [mark if at == row else each[5]] + each[6:]) for at, each in enumerate(MATRIX)]
+    (tmp_path / "scan.txt").write_text("\n".join(rows) + "\n")
+    with pytest.raises(hystrip.InputError, match=f"scan.txt, line {row + 1}: got .*; allowed: numbers alone, nan for"):
+        read_surface(tmp_path / "scan.txt", **GIVEN)
+
+
+@pytest.mark.parametrize("mark", ["***", "", "BAD"])
+@pytest.mark.parametrize("separator", ["\t", ","])
+def test_a_point_of_a_line_with_a_mark_of_no_number_is_named(tmp_path, mark, separator):
+    """Readers drop it, and all above."""
+    pytest.importorskip("SurfaceTopography")
+    rows = [separator.join([x, mark if at == 12 else z]) for at, (x, z) in enumerate(LINE)]
+    (tmp_path / "line.csv").write_text(f"x [mm]{separator}z [um]\n" + "\n".join(rows) + "\n")
+    with pytest.raises(hystrip.InputError, match="line.csv, line 14: got '0.012"):
+        read_surface(tmp_path / "line.csv")
+
+
+@pytest.mark.parametrize("between", ["part 2", "# part 2"])
+def test_points_below_a_remark_are_not_taken_for_all(tmp_path, between):
+    pytest.importorskip("SurfaceTopography")
+    rows = [",".join(each) for each in LINE]
+    (tmp_path / "line.csv").write_text("\n".join(["x [mm],z [um]", *rows[:12], between, *rows[12:], ""]))
+    with pytest.raises(hystrip.InputError, match=f"line.csv, line 14: got '{between}'"):
+        read_surface(tmp_path / "line.csv")
+
+
+@pytest.mark.parametrize(
+    ("above", "mark", "below"),
+    [
+        ("", "nan", ""),
+        ("", "BAD", ""),
+        ("Columns: " + " ".join(map(str, range(16))) + "\n", "1.5", "end 1 2 3\n"),
+        ("16 16 V\n", "0", ""),
+    ],
+)
+def test_remarks_and_undefined_points_of_a_matrix_are_read_as_ever(tmp_path, above, mark, below):
+    pytest.importorskip("SurfaceTopography")
+    rows = [" ".join(each[:5] + [mark if at == 9 else each[5]] + each[6:]) for at, each in enumerate(MATRIX)]
+    (tmp_path / "scan.txt").write_text(above + "\n".join([*rows[:8], "second half", "", *rows[8:]]) + "\n" + below)
+    assert read_surface(tmp_path / "scan.txt", **GIVEN).heights.shape == (16, 16)
+
+
+def test_numbers_above_the_names_of_a_line_are_no_points(tmp_path):
+    pytest.importorskip("SurfaceTopography")
+    rows = [f"{at},{z}" for at, (_, z) in enumerate(LINE)]
+    (tmp_path / "line.csv").write_text("\n".join(["0.5,1", "speed,2", "x,z", *rows, ""]))
+    assert read_surface(tmp_path / "line.csv", unit="um").heights.shape == (24,)

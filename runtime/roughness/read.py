@@ -16,6 +16,7 @@ from ..errors import InputError
 from ..extras import require
 from ..files import path_of
 from ..inputs.checks import number, sequence
+from .lines import refuse_damaged_lines
 from .scan import Scan, ScanWarning
 from .units import Units, lacks_lengths, units_of
 
@@ -109,24 +110,33 @@ def _quiet() -> Iterator[None]:
 def _opened(topographies: Any, where: str) -> Any:
     """The file, opened; a matrix of numbers that commas or semicolons part as if tabs did."""
     try:
-        reader = topographies.open_topography(_with_points(where))
+        source = _with_points(where)
+        reader = topographies.open_topography(source)
         # terrain has no sign but its size: whatever has twice a square number of bytes would be one
         if reader.format() == "hgt" and not where.lower().endswith(".hgt") and os.path.getsize(where):
             reader.close()
             raise topographies.Exceptions.CannotDetectFileFormat
+        if (form := reader.format()) in ("asc", "xyz"):
+            refuse_damaged_lines(_content(where) if source is where else source.getvalue(), form, where)
         return reader
     except topographies.Exceptions.CannotDetectFileFormat:
-        with open(where, "rb") as file:
-            lines = file.read().removeprefix(codecs.BOM_UTF8).splitlines()
+        lines = _content(where).removeprefix(codecs.BOM_UTF8).splitlines()
         rows = [line for line in lines if not line.startswith(b"#")]
         separator = next((each for each in (b";", b",") if any(each in line for line in rows)), None)
         if separator is None or not all(map(_OF_MATRIX.fullmatch, rows)):
+            refuse_damaged_lines(b"\n".join(lines), "", where)
             raise
         if separator == b"," and not any(b"." in line for line in rows):
             allowed = "decimal points, or blanks, tabs or semicolons between numbers: these commas may be decimal signs"
             raise InputError(where, "whole numbers parted by commas", allowed) from None
-        tabbed = (line if line.startswith(b"#") else _with_tabs(line, separator) for line in lines)
-        return topographies.open_topography(io.BytesIO(b"\n".join(tabbed) + b"\n"))
+        tabbed = b"\n".join(line if line.startswith(b"#") else _with_tabs(line, separator) for line in lines) + b"\n"
+        refuse_damaged_lines(tabbed, "asc", where)
+        return topographies.open_topography(io.BytesIO(tabbed))
+
+
+def _content(where: str) -> bytes:
+    with open(where, "rb") as file:
+        return file.read()
 
 
 def _with_tabs(line: bytes, separator: bytes) -> bytes:
