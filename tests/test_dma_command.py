@@ -50,6 +50,15 @@ def test_shear_moduli_of_a_layer_are_called_so(run, tmp_path):
     assert status == 0 and "taken for Young's, E" in out and "2 (1 + nu)" not in out + scene.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("given", [("--pressure", "1e5"), ("--title", "x"), ("--scene", "absent.toml")])
+def test_options_of_a_scene_that_is_not_written_are_said_to_do_nothing(run, tmp_path, given):
+    (tmp_path / "rubber.csv").write_text(table("f [Hz];E' [Pa];E'' [Pa]"))
+    note = "no scene is written, of which --scene, --pressure and --title are: it takes --nu or --length"
+    assert note in run("fit", "rubber.csv", *FIT[:2], FIT[-1], *given)[1]
+    assert note not in run("fit", "rubber.csv", *FIT[:2], FIT[-1])[1]
+    assert note not in run("fit", "rubber.csv", *FIT, "--nu", 0.5)[1]
+
+
 def test_each_set_has_its_own_files(run, tmp_path):
     text = table("Set;T [degC];f [Hz];E' [Pa];E'' [Pa]", ("1;0;", 1.0), ("23 °C/b;30;", 2.0))
     (tmp_path / "rep.csv").write_text(text, encoding="utf-8")

@@ -540,3 +540,10 @@ def test_numbers_above_the_names_of_a_line_are_no_points(tmp_path):
     rows = [f"{at},{z}" for at, (_, z) in enumerate(LINE)]
     (tmp_path / "line.csv").write_text("\n".join(["0.5,1", "speed,2", "x,z", *rows, ""]))
     assert read_surface(tmp_path / "line.csv", unit="um").heights.shape == (24,)
+
+
+def test_what_is_wrong_with_the_heights_of_a_file_names_it(tmp_path):
+    pytest.importorskip("SurfaceTopography")
+    (tmp_path / "scan.txt").write_text("\n".join(" ".join(row) for row in MATRIX))
+    with pytest.raises(hystrip.InputError, match="scan.txt, heights: got 'heights that differ by"):
+        read_surface(tmp_path / "scan.txt", unit="um", sizes=(1, 1))

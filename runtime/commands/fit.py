@@ -60,7 +60,7 @@ def command(
     from ..origins import outputs_from, refuse_other_origin
     from ..tables import about_version, write_csv
     from .quantities import quantity
-    from .scene_options import left_to_the_user, settings
+    from .scene_options import STARTER, left_to_the_user, settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
@@ -83,7 +83,7 @@ def command(
     names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)
     about = [*about_version(), f"data: {source}"]
-    with warnings.catch_warnings(), as_options(_OPTIONS):
+    with warnings.catch_warnings(), as_options(_OPTIONS | {"data": str(data)}):
         warnings.simplefilter("ignore", FitWarning)  # said below, with everything else about the fit
         measured = measured.between(low, high)
         series = fit_prony(measured, accuracy=accuracy, per_decade=per_decade, terms=terms)
@@ -104,6 +104,8 @@ def command(
         say(f"note       stiffness per area is G over the length. {SHEAR}")
     if series.rms > POOR:
         say(f"note       poor fit: {series.quality}")
+    if not writes_scene and (title, pressure, scene) != (None, None, STARTER):
+        say("note       no scene is written, of which --scene, --pressure and --title are: it takes --nu or --length")
     for note in left_to_the_user(scene if writes_scene else "", "material"):
         say(note)
     say_written(out / name for name in names)

@@ -214,11 +214,11 @@ def _series(data: DynamicModulus, times: np.ndarray, free: bool) -> PronySeries:
         band = f"{1 / data.omega[-1]:.3g} to {1 / data.omega[0]:.3g} s"
         raise InputError("relaxation times", times.tolist(), f"times of which one gets a modulus, such as those from {band}")
     if not keep.any():
-        raise InputError("dma", "no relaxation", "data whose loss modulus is not zero throughout")
+        raise InputError("data", "no relaxation", "data whose loss modulus is not zero throughout")
     f = data.frequency
     if moduli[0] <= _NOTHING * moduli.sum():
         problem = f"no relaxed modulus between {f[0]:.4g} and {f[-1]:.4g} Hz"
-        raise InputError("dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times")
+        raise InputError("data", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times")
     times, moduli = times[keep], moduli[np.concatenate(([True], keep))]
     modulus_errors, time_errors = relative_errors(data, moduli, times, residuals, free)
     if free:

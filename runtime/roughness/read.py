@@ -87,8 +87,10 @@ def read_surface(
             elif found.height_scale_factor is None and (per_unit := units.heights_in(found.unit)) != 1:
                 options["height_scale_factor"] = per_unit * options.get("height_scale_factor", 1.0)
             return _even(reader.topography(**options), units, where)
-    except InputError:
-        raise
+    except InputError as error:
+        if error.field in ("scan.heights", "scan.sizes"):
+            error = InputError(f"{where}, {error.field.removeprefix('scan.')}", error.value, error.allowed)
+        raise error from None
     except Exception as error:  # readers of forty formats end in errors of as many kinds
         said = (str(error).strip() or type(error).__name__).splitlines()[0]
         allowed = "a measured surface, with sizes and unit in the file or else given (--size, --unit), not both"
