@@ -219,6 +219,14 @@ def test_files_without_temperatures_are_refused(tmp_path):
         read_shift(tmp_path / "c.csv")
 
 
+@pytest.mark.parametrize("remark", ["# {}", '"# {}"', '"# {}";;', "\ufeff# {};;", "  # {}", "#{}"])
+def test_a_shift_is_found_in_what_spreadsheets_make_of_its_remark(tmp_path, remark):
+    stated = remark.format("shift: WLF C_1=8.86 C_2=101.6 T_ref=293.15 vertical=1.0")
+    text = f'{stated}\r\n"f [Hz]";"E\' [kPa]";"E\'\' [kPa]"\r\n0,1;2,5;3\r\n2;3;4\r\n'
+    (tmp_path / "a.csv").write_bytes(text.encode())
+    assert read_shift(tmp_path / "a.csv") == hystrip.WLF(8.86, 101.6, 293.15, 1.0)
+
+
 def test_example_from_isotherms_and_scan_to_friction(run, tmp_path):
     """The README's way, as a new user goes it: each command writes what the next one reads."""
     pytest.importorskip("SurfaceTopography")

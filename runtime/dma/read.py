@@ -19,6 +19,8 @@ from .table import NO_NUMBER, Table, as_number, decimal_comma, read_table
 
 #: columns that mean nothing without a unit
 _WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute", "phase")
+#: a remark that states a shift; spreadsheets put text in quotes
+_SHIFT = re.compile(r'[\s"]*#\s*shift:\s*')
 _NUMBER = re.compile(r"[-+\u2212]?[.,]?\d[\d.,]*([deDE][-+]?\d+)?$|[-+]?(nan|inf)", re.IGNORECASE)
 
 
@@ -219,9 +221,10 @@ def read_shift(path: str | os.PathLike[str]) -> WLF | Arrhenius | None:
     """
     table = read_table(path, lacking)
     for line in table.remarks:
-        if not line.startswith("# shift:"):
+        stated = _SHIFT.match(line)
+        if not stated:
             continue
-        words = line.removeprefix("# shift:").replace(",", " ").replace(";", " ").split()
+        words = re.split(r'[\s,;"]+', line[stated.end() :].strip(' \t,;"'))
         try:
             kind = {"WLF": WLF, "Arrhenius": Arrhenius}[words[0]]
             return kind(**{name: float(value) for name, _, value in (word.partition("=") for word in words[1:])})
