@@ -547,3 +547,14 @@ def test_what_is_wrong_with_the_heights_of_a_file_names_it(tmp_path):
     (tmp_path / "scan.txt").write_text("\n".join(" ".join(row) for row in MATRIX))
     with pytest.raises(hystrip.InputError, match="scan.txt, heights: got 'heights that differ by"):
         read_surface(tmp_path / "scan.txt", unit="um", sizes=(1, 1))
+
+
+def test_positions_that_go_back_are_said_in_metres(tmp_path):
+    """Of the file, whatever the unit of the heights."""
+    pytest.importorskip("SurfaceTopography")
+    rows = [f"{0.001 * (at if at < 9 else at - 1):.4f},{z}" for at, (_, z) in enumerate(LINE)]
+    (tmp_path / "line.csv").write_text("\n".join(["x [mm],z [um]", *rows]))
+    with pytest.raises(
+        hystrip.InputError, match="positions: got '8e-06 m after 8e-06 m'; allowed: positions along the line that grow"
+    ):
+        read_surface(tmp_path / "line.csv")

@@ -237,7 +237,7 @@ def _even(topography: Any, units: Units, where: str) -> Scan:
         _refuse_positions(np.ma.filled(topography.heights(), np.nan), where)
     topography, gaps = topography.to_unit("m"), 0.0
     if topography.dim == 1:
-        x = topography.positions()
+        x = topography.positions() * units.factors[0]
         steps = np.diff(x)
         back = np.flatnonzero(steps <= 0)
         if back.size:
