@@ -127,6 +127,20 @@ MUTANTS = (
         "test_look.py",
     ),
     Mutant(
+        "panels are halved, whatever has a kink in them",
+        "level/averages.py",
+        "0.5 * (panels.low + panels.high), kinks)",
+        "0.5 * (panels.low + panels.high), np.nan)",
+        "test_bounded_work.py",
+    ),
+    Mutant(
+        "pressure right after entry is that at entry",
+        "level/lower_levels.py",
+        "contact.entered(_MEMORIES * memory[index])",
+        "contact.entered(0 * memory[index])",
+        "test_lower_levels.py",
+    ),
+    Mutant(
         "next to a jump nothing is known of its other side",
         "level/walk.py",
         "self.other = self._apart(row, least, most, exhausted)",

@@ -107,17 +107,7 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     while left.size:
         _go_along(columns, [walks[i] for i in left], finest)
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or Root(np.nan, 0.0, np.zeros(q)) for i in left), strict=True)))
-        found, steep = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor), np.ones(left.size)
-        for _ in range(2):
-            sizes = np.abs(found[1]) + 1e-3 * columns.scales
-            now = np.fmax(np.abs(found[3]) * sizes[:, :1] / sizes, 1.0).max(axis=1)
-            # quantities that are steep over pressure may err by ``rtol`` for what that errs by, too
-            steep, more = np.minimum(now, rtol / _FINEST), np.flatnonzero(now > _STEEP * steep)
-            if more.size:
-                at, finer = left[more], Root(found[0][more], *(v[more] for v in root[1:]))
-                again = _refine(columns.at(at, np.zeros(at.size)), p[at], finer, rtol / steep[more], floor)
-                for whole, part in zip(found, again, strict=True):
-                    whole[more] = part
+        found, steep = _refine_steep(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
         other = np.array([walks[i].other + np.zeros(q) for i in left])
         out.put(left, Penetrations(*found, steep, other, ~np.isnan(root.D) & np.isnan(root.low)))
         # by now it is known how strips change over next to the root
@@ -126,6 +116,22 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     for why in (NO_CURVE, AT_JUMP):
         columns.work.limit_reached(columns.V[[walk.undecided == why for walk in walks]], columns.level.l, why)
     return out
+
+
+def _refine_steep(columns: LevelBatch, p: np.ndarray, root: Root, rtol: float, floor: float) -> tuple[tuple, np.ndarray]:
+    """``_refine``, and again where a quantity is steep over the pressure: it may err by ``rtol``, for what that errs by, too.
+    Returns also how steep they are, (n,)."""
+    found, steep = _refine(columns, p, root, rtol, floor), np.ones(p.size)
+    for _ in range(2):
+        sizes = np.abs(found[1]) + 1e-3 * columns.scales
+        now = np.fmax(np.abs(found[3]) * sizes[:, :1] / sizes, 1.0).max(axis=1)
+        steep, more = np.minimum(now, rtol / _FINEST), np.flatnonzero(now > _STEEP * steep)
+        if more.size:
+            finer = Root(found[0][more], *(v[more] for v in root[1:]))
+            again = _refine(columns.at(more, np.zeros(more.size)), p[more], finer, rtol / steep[more], floor)
+            for whole, part in zip(found, again, strict=True):
+                whole[more] = part
+    return found, steep
 
 
 def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> None:
