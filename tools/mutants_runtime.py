@@ -141,6 +141,13 @@ MUTANTS = (
         "test_lower_levels.py",
     ),
     Mutant(
+        "averages pass by strips whose contact all but closes",
+        "level/regime_map.py",
+        'if boundary.event != "peak"):',
+        'if boundary.event == "fold"):',
+        "test_next_to_jumps.py",
+    ),
+    Mutant(
         "next to a jump nothing is known of its other side",
         "level/walk.py",
         "self.other = self._apart(row, least, most, exhausted)",

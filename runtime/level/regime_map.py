@@ -236,7 +236,8 @@ class Crossings:
             points, state = points.take(np.flatnonzero(found)), state[found]
             self.remember(boundary, points)
             yield state, theta_of(columns, points.A), np.full(state.size, boundary.event in ("fold", "release"))
-        for turns in (turns for boundary, turns in self.turns.items() if boundary.event == "fold"):
+        # just beyond a turn strips come close to an end: their contact all but closes, say
+        for turns in (turns for boundary, turns in self.turns.items() if boundary.event != "peak"):
             beyond = turns.way * (E[:, None] - turns.E) >= 0
             state, turn = np.nonzero((columns.V[:, None] == turns.velocity) & beyond)
             yield state, theta_of(columns, turns.A[turn]), np.zeros(state.size, bool)
