@@ -169,7 +169,7 @@ class _Work:
         for stage in stages:
             np.add.at(total, stage.parts.state, stage.parts.sums(stage.known[1]))
         goal = self.rtol[:, None] * np.abs(total) + np.pi * self.atol
-        mixed, doubled, halved = [], [], []
+        mixed, doubled, parts = [], [], []
         for stage in stages:
             codes = self._outer(stage)[0]
             changed = (codes != codes[:, :1]).any(axis=1)
@@ -177,18 +177,18 @@ class _Work:
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
             middle = self._middle(stage)
-            halves = ~np.isnan(middle)
-            doubled.append(stage.take(~halves))
-            halved.append(stage.parts.take(halves).split(middle[halves]))
-        parts = [self._divide(mixed, goal), *halved]
-        left = [Stage(Panels.joined(parts), _FIRST), *doubled]
+            parted = ~np.isnan(middle)
+            doubled.append(stage.take(~parted))
+            parts.append(stage.parts.take(parted).split(middle[parted]))
+        left = [Stage(Panels.joined([self._divide(mixed, goal), *parts]), _FIRST), *doubled]
         return [stage for stage in left if stage.parts.size]
 
     def _middle(self, stage: Stage) -> np.ndarray:
         """Where panels (m,) are to be divided that twice the first nodes are not enough for; NaN: more nodes may do."""
-        panels, theta = stage.parts, stage.parts.at(interior_nodes(_FIRST))
+        panels = stage.parts
         if stage.n == _FIRST:
             return np.full(panels.size, np.nan)
+        theta = panels.at(interior_nodes(_FIRST))
         state = np.repeat(panels.state, theta.shape[1])
         kinks = self.columns.at(state, self.columns.D[state]).kinks(theta.ravel(), theta)
         return np.where(np.isnan(kinks) & (stage.n >= _LAST), 0.5 * (panels.low + panels.high), kinks)

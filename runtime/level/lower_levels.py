@@ -64,11 +64,8 @@ class LowerLevelLaws:
 
         Within a few times the shortest ``memory`` (m n,), in phase, pressure rises all but at once to what decides how far on it
         passes a break: on one side of such a place that is next to entry. Without memory it steps there, and that is a kink."""
-        over, (index, contact), line = (
-            np.full((group.size, self.laws.breaks.shape[1]), np.nan),
-            strips.touching,
-            np.arange(len(x)),
-        )
+        (index, contact), line = strips.touching, np.arange(len(x))
+        over = np.full((group.size, self.laws.breaks.shape[1]), np.nan)
         over[index] = contact.entered(_MEMORIES * memory[index])[:, None] - self.laws.breaks[group[index]]
         over = over.reshape(*x.shape, over.shape[1])
         jumps = (over[:, 1:] * over[:, :-1] < 0) * self.laws.at_breaks[0][group].reshape(over.shape)[:, 1:]

@@ -88,7 +88,8 @@ class Walk:
                 if self.waiting and not exhausted and (least < 0 if self.unloading else most == 2 * len(row) - 1):
                     return
                 self.other = self._apart(row, least, most, exhausted)
-                self.undecided = (NO_CURVE if exhausted else AT_JUMP) * bool(self.other.any())
+                if self.other.any():
+                    self.undecided = NO_CURVE if exhausted else AT_JUMP
             k = max(k, 0)
         if 0 <= k < 2 * len(row) - 1:
             self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
