@@ -13,8 +13,8 @@ NAMES = {r"\Deltaw": jump}
 
 
 def standing_still(flows: Flows) -> Derived:
-    r"""On a fast foundation z stands still. Contact and adhesion are as long before the crest as after it then, w is u(a) while
-    the gap adheres and more by its step in the free zone, and of the mean of w less that of p is left, times pi, and by a:
+    r"""On a fast foundation z stands still. Then contact and adhesion last as long before the crest as after it, and w is u(a)
+    while the gap adheres, more by its step in the free zone. Pi times the mean of w less that of p, and its derivative by a:
 
     .. math:: \pi (u(a) + \Delta w) + (p_0 - \Delta w) c - \frac{L}{J} (\sin a - a \cos a),\quad -\sin a \left(\pi + \frac{L}{J}
         a - \frac{p_0 - \Delta w}{\sin c}\right)
@@ -33,6 +33,6 @@ def standing_still(flows: Flows) -> Derived:
     claims = [
         zero("in contact, from p = -p_0 at a, z stands still", (u - J * pressed) - (held + J * p_0)),
         zero("half of the sum of w less that of p", (summed_w - summed_p) / 2 - value),
-        zero("by a, with the c that it leads to", slope - stated.subs(L, 1 - J)),
+        zero("its derivative by a, with the c that a leads to", slope - stated.subs(L, 1 - J)),
     ]
     return derived(standing_still, (value, stated), claims)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .options import out_option
+from .options import as_options, out_option
 from .output import say_written
 
 
@@ -21,6 +21,6 @@ def command(
     from .progress import progress
 
     require("matplotlib", "plot", "drawing")
-    with progress("figures") as report:
+    with as_options({"only": "figures"}), progress("figures") as report:
         written = draw(only, out, report)
     say_written(written)

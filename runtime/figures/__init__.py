@@ -27,7 +27,7 @@ def draw(
     names = list(dict.fromkeys(only or FIGURES))
     for name in names:
         if name not in FIGURES:
-            raise InputError("figures", name, ", ".join(FIGURES))
+            raise InputError("only", name, ", ".join(FIGURES))
     folder, of = path_of(out, "out", "a folder"), {name: [f"{name}.{kind}" for kind in ("csv", "png", "svg")] for name in names}
     refuse_unwritable(folder, "out")
     refuse_other_origin(folder, [*itertools.chain(*of.values())], _SOURCE)

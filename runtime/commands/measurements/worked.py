@@ -81,7 +81,7 @@ def _zones(sequence: str, edges: dict[str, float], groups: dict[str, float], sol
             load = float(sp.sympify(zone.load).subs(numbers))
             name, value = "gap_after", solver.gap_after(first, last, entry, load, D, beta)
         state, letter = ("p + p_0", "q") if zone.kind == CONTACT else ("gap", "g")
-        rows.append(_row(f"{zone.kind} from {zone.first}, entered with the {state}", sp.latex(zone.entry), entry, ""))
+        rows.append(_row(f"{zone.kind} from {zone.first}: {state} at its start", sp.latex(zone.entry), entry, ""))
         last_edge = sp.latex(zone.last)
         rows.append(_row(f"{state} at its end, asked to be {zone.exit}", f"{letter}({last_edge})", float(value), name))
     return rows
