@@ -50,6 +50,9 @@ h = "1 μm"
         ("3.6 km/hour", "m/s", 1.0),
         ("25 mN/m", "J/m^2", 0.025),
         ("1e9 N/m^3", "Pa/m", 1e9),
+        ("2 kN/m2", "Pa", 2e3),
+        ("5 mm·s⁻¹", "m/s", 5e-3),
+        ("3 N.m-2", "Pa", 3.0),
     ],
 )
 def test_quantity_is_the_nearest_float(text, unit, value):
@@ -57,7 +60,24 @@ def test_quantity_is_the_nearest_float(text, unit, value):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "um", "10", "0,1 um", "10 um um", "ten um", "10 kg", "10 parsnips", "10 Um", "1/2 m", "10 (m", "1e999 m"]
+    "text",
+    [
+        "",
+        "um",
+        "10",
+        "0,1 um",
+        "10 um um",
+        "ten um",
+        "10 kg",
+        "10 parsnips",
+        "10 Um",
+        "10 m2",
+        "10 m·s⁻¹",
+        "10 m9999",
+        "1/2 m",
+        "10 (m",
+        "1e999 m",
+    ],
 )
 def test_quantity_that_is_none(text):
     with pytest.raises(InputError, match="^x: got .*; allowed: .*m"):

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
+from ..scene.quantity import plain_unit, unit_factor
 from .pairs import PAIRS
 
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*/?\s*[\[({<](?P<unit>[^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])}>]$")
@@ -42,7 +43,6 @@ _PER_SECOND = ("1/s", "s**-1", "1/sec")
 _RADIANS = ("rad/s", "rad/sec", "rad s**-1", "rad*s**-1")
 _ANGLES = {**dict.fromkeys(("°", "deg", "degree", "degrees"), np.pi / 180), **dict.fromkeys(("rad", "radian", "radians"), 1.0)}
 _TURNS = re.compile(r"rad|deg|rev|turn|rpm|rps|cyc|count")
-_RAISED = str.maketrans("⁻\u2212¹²³", "--123")
 _PRIMES = str.maketrans(dict.fromkeys("″“”", '"') | dict.fromkeys("′’´`‘", "'"))
 _KELVIN = ("K", "kelvin", "degK")
 _CELSIUS = ("C", "°C", "ºC", "degC", "celsius", "℃")
@@ -101,7 +101,7 @@ def factor(column: Column, where: str) -> float:
 
     Raises ``InputError`` for a unit of something else, or a missing one.
     """
-    place, unit = f"{where}, column {column.name!r}, unit", _plain_unit(column.unit)
+    place, unit = f"{where}, column {column.name!r}, unit", plain_unit(column.unit)
     if column.role in _MODULI:
         return _PA[unit] if unit in _PA else _converted(unit, "Pa", place, "a unit of stress such as MPa")
     if column.role == "tan":
@@ -126,7 +126,7 @@ def factor(column: Column, where: str) -> float:
 
 def per_second(column: Column) -> bool:
     """Whether the unit says neither Hz nor rad/s."""
-    return _plain_unit(column.unit) in _PER_SECOND
+    return plain_unit(column.unit) in _PER_SECOND
 
 
 def with_unit_below(column: Column, below: str, where: str) -> Column:
@@ -170,8 +170,6 @@ def _converted(unit: str, to: str, place: str, wanted: str) -> float:
         raise InputError(place, None, f'{wanted}: in the name as in "E\' [MPa]", or in a second row')
     if to == "Hz" and _TURNS.search(unit):  # an angle counts as a number there: off by 2 pi
         raise InputError(place, unit, wanted)
-    from ..scene.quantity import unit_factor
-
     return unit_factor(unit, to, place, wanted)
 
 
@@ -188,12 +186,6 @@ def _split(written: str) -> tuple[str, str]:
 def _single_spaced(text: str) -> str:
     """With one space for each run of them: the patterns take the cube of a run's length."""
     return " ".join(text.split())
-
-
-def _plain_unit(unit: str) -> str:
-    """A unit with its powers as ``**``: ``cm2``, ``cm^2`` and ``cm²`` are one, as are ``rad.s-1`` and ``rad·s⁻¹``."""
-    unit = re.sub(r"[.·⋅](?=[^\W\d_])", "*", unit.translate(_RAISED))
-    return re.sub(r"(?<=[^\W\d_])\^?(-?\d)", r"**\1", unit)
 
 
 def _plain(name: str) -> str:

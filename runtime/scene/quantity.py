@@ -19,7 +19,8 @@ _OFFSETS = {
 _LONGEST = 100  # characters of a quantity, or of a unit
 #: a number raised to a power, or one of many digits: computing it could take for ever
 _ENDLESS = re.compile(r"\d[\s)]*(\*\*|\^)|\d{4}")
-_UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")
+_UNIT = re.compile(r"[\w\s*/^().·⋅\-\u2212²³⁻¹]+")
+_RAISED = str.maketrans("⁻\u2212¹²³", "--123")
 
 
 def to_si(value: float | str, unit: str, field: str) -> float:
@@ -76,10 +77,16 @@ def unit_factor(written: str, unit: str, field: str, allowed: str) -> float:
     return float(_factor(written, unit, field, written, allowed))
 
 
+def plain_unit(unit: str) -> str:
+    """A unit with its powers as ``**``: ``cm2``, ``cm^2`` and ``cm²`` are one, as are ``rad.s-1`` and ``rad·s⁻¹``."""
+    unit = re.sub(r"[.·⋅](?=[^\W\d_])", "*", unit.translate(_RAISED))
+    return re.sub(r"(?<=[^\W\d_])\^?(-?\d)", r"**\1", unit)
+
+
 def _factor(written: str, unit: str, field: str, text: str, allowed: str) -> Decimal:
     pint = require("pint", "units", "a quantity written with a unit")
     try:
-        return _in_si(written, unit)
+        return _in_si(plain_unit(written), unit)
     except pint.UndefinedUnitError:
         raise InputError(field, text, f"{allowed}; the unit {written!r} is not known (case counts)") from None
     except pint.DimensionalityError:
