@@ -133,6 +133,20 @@ def test_regimes_of_a_lower_level_that_is_loaded_while_it_is_pulled(p_0):
     assert second.contact == pytest.approx(result.contact_by_level[1], rel=0.02)
 
 
+@pytest.mark.parametrize(("T_sigma", "gamma", "delta_0", "levels", "pressure", "velocity"), [
+    # next to all that level 2 carries lies between two penetrations of a first look
+    (5.928e-7, 3.605e-8, 6.261e-9, [(1e-5, 4.895e-7), (8.685e-7, 1.94e-7), (2.036e-7, 6.524e-9)], 80.3, 0.1687),
+    # so does where level 3 is pulled off
+    (2.543e-4, 5.85e-7, 1.806e-8, [(1e-5, 2.505e-7), (1.115e-6, 8.014e-8), (6.823e-7, 5.978e-8)], 59.6, 8.22e-6),
+])  # fmt: skip
+def test_regimes_of_levels_that_carry_pressures_unevenly(T_sigma, gamma, delta_0, levels, pressure, velocity):
+    of = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    at = {"pressure": pressure, "velocity": velocity, "edge": "constitutive", "rtol": 1e-2}
+    result = hystrip.solve(*of, [hystrip.Level(*each) for each in levels], **at)
+    for each, contact in zip(regimes_by_level(result, 0), result.contact_by_level, strict=True):
+        assert each.contact == pytest.approx(contact, rel=0.02)
+
+
 def test_regimes_of_no_contact_and_without_the_lower_level():
     assert regimes_by_level(solved(-1e5, 5e-3, LEVELS[:1]), 0) == []
     flat = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS[:2], penetration=-1e-6, velocity=1e-3)
