@@ -17,22 +17,37 @@ from hystrip.orbit.modes.problem import ModeStrips
 from hystrip.orbit.modes.windows import alone, linearised, links, responses
 from hystrip.orbit.regimes import SEQUENCES
 
+# materials and orbits are had once
+pytestmark = pytest.mark.xdist_group("windows")
 TIMES = (2, 3)
-N = 1500
+N, MATERIALS = 1500, 500
+
+
+@cache
+def materials(n, kind):
+    """Modes of foundations; ``fast``: the first time is so short that an onset is followed by contact almost at once; ``far``:
+    times differ by eleven decades."""
+    rng, size = np.random.default_rng(10 + n), MATERIALS
+    tau_i = np.sort(_log(rng, 1e-9, 100, n, size) if kind == "far" else _log(rng, 0.01, 30, n, size), axis=0)
+    if kind == "fast":
+        tau_i[0] = _log(rng, 1e-5, 1e-3, size)
+    K_i = _log(rng, 0.03, 300, n, size) if kind == "far" else _log(rng, 0.05, 30, n, size)
+    return modes_of(generalised, {"K": np.ones(size), "K_i": K_i, "tau_i": tau_i})[1]
+
+
+def _log(rng, low, high, *shape):
+    return 10 ** rng.uniform(np.log10(low), np.log10(high), shape)
 
 
 def strips(rng, n, size=N, kind=""):
-    """Strips that are often engaged and often not, a third of them snapping into contact; ``fast``: the first time is so short
-    that an onset is followed by contact almost at once; ``far``: times differ by eleven decades, ``snap``: most snap, too."""
-    log = lambda low, high, *shape: 10 ** rng.uniform(np.log10(low), np.log10(high), shape)  # noqa: E731
+    """Strips that are often engaged and often not, a third of them snapping into contact, on foundations of a ``kind``; ``snap``:
+    on those with times far apart, and most snap."""
     kernel, far = generalised, kind in ("far", "snap")
-    tau_i = np.sort(log(1e-9, 100, n, size) if far else log(0.01, 30, n, size), axis=0)
-    if kind == "fast":
-        tau_i[0] = log(1e-5, 1e-3, size)
-    K_i = log(0.03, 300, n, size) if far else log(0.05, 30, n, size)
-    _, modes = modes_of(kernel, {"K": np.ones(size), "K_i": K_i, "tau_i": tau_i})
-    P0 = log(0.05, 20, size) if far else log(0.05, 5, size)
-    Delta = log(*{"far": (1e-3, 10), "snap": (1e-6, 0.1)}.get(kind, (0.03, 2)), size)
+    # each foundation bears several strips
+    modes = materials(n, "far" if far else kind)
+    modes = type(modes)(*(each[..., np.arange(size) % MATERIALS] for each in modes))
+    P0 = _log(rng, 0.05, 20, size) if far else _log(rng, 0.05, 5, size)
+    Delta = _log(rng, *{"far": (1e-3, 10), "snap": (1e-6, 0.1)}.get(kind, (0.03, 2)), size)
     m = kernel.at_speed(modes, np.ones(size))
     return kernel, ModeStrips(m, P0, Delta, rng.uniform(-1 - Delta, 3), m.J_0 * P0 >= Delta)
 
@@ -166,7 +181,6 @@ def orbits(n, kind, count=1500):
     return s, Forced(kernel, s, in_order(np.concatenate(edges, axis=1)))
 
 
-@pytest.mark.xdist_group("orbits")  # which are solved once
 @pytest.mark.parametrize("rising", [True, False])
 @pytest.mark.parametrize(("n", "kind"), [*((n, "") for n in TIMES), (3, "far"), (3, "snap")])
 def test_what_hides_an_orbit_is_never_proven(n, kind, rising):

@@ -29,9 +29,15 @@ h = 1e-7
 """
 
 
-@pytest.fixture
+# one cluster for all
+pytestmark = pytest.mark.xdist_group("dask")
+
+
+@pytest.fixture(scope="module")
 def cluster():
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+    # without a dashboard; what else the scheduler serves is not on its usual port, which may be taken
+    options = {"dashboard_address": None, "scheduler_kwargs": {"dashboard_address": ":0"}}
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, **options) as cluster:
         yield cluster
 
 
