@@ -77,21 +77,20 @@ def test_what_is_lost_at_rest_is_lost_in_two_snaps(material, edge, branch):
 
 
 @pytest.mark.parametrize("branch", BRANCHES)
-@pytest.mark.parametrize(
-    ("material", "edge", "times"),
-    [(*case, times) for case in CASES for times in (1e-17, AT_REST, 2 * AT_REST, 1e-12, 1e-11, 1e-10)],
-)
-def test_no_speed_is_too_low(material, edge, branch, times):
+@pytest.mark.parametrize(("material", "edge"), CASES)
+def test_no_speed_is_too_low(material, edge, branch):
     """Next to where a strip is released rounding hides from the solvers of moving strips what happens: they refused 1 in 100."""
-    p_0, delta_0, D = _strips(1500 if material == "one time" else 300, 5, 1e-17)
+    speeds = [1e-17, AT_REST, 2 * AT_REST, 1e-12, 1e-11, 1e-10]
+    strips = _strips(1500 if material == "one time" else 300, 5, 1e-17)
+    times, (p_0, delta_0, D) = np.repeat(speeds, strips[0].size), np.tile(strips, len(speeds))
     _, s = _solve(material, edge, branch, times, p_0, delta_0, D)
     assert s.certified.all()
     _, still = _solve(material, edge, branch, 0.0, p_0, delta_0, D)
     same = s.code == still.code
-    assert same.mean() > 0.9
+    assert (same.reshape(len(speeds), -1).mean(axis=1) > 0.9).all()
     # a release in the middle of the valley is known like the root of the rounding of D
     same &= np.abs(2 - D - p_0 - delta_0) > 1e-8
-    assert (np.abs(s.p_mean - still.p_mean)[same] < (1e-11 + 100 * times) * (1 + p_0[same])).all()
+    assert (np.abs(s.p_mean - still.p_mean)[same] < ((1e-11 + 100 * times) * (1 + p_0))[same]).all()
 
 
 @pytest.mark.parametrize("branch", BRANCHES)
@@ -131,4 +130,4 @@ def test_levels_at_rest(material):
         at = {"pressure": 1e3, "rtol": 1e-3, "edge": "constitutive"}
         slow, still = (hystrip.solve(material, adhesion, levels, velocity=v, **at) for v in (1e-12, [0.0, 1e-30, 1e-20]))
         assert still.converged.all() and (np.abs(still.mu - slow.mu) <= still.error_estimate + slow.error_estimate + 1e-6).all()
-        still.summary()
+    still.summary()

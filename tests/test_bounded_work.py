@@ -182,17 +182,16 @@ def test_a_pressure_is_known_as_well_as_fractions_that_are_steep_over_it_ask_for
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("above", [1e-7, 4e-7])
-def test_friction_that_is_steep_next_to_pull_off_is_as_accurate_as_asked_for(above):
+def test_friction_that_is_steep_next_to_pull_off_is_as_accurate_as_asked_for():
     """Loading: next to the least pressure that is carried friction changes like the root of the distance from there."""
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.2425e-3)
     adhesion, level = hystrip.Dugdale(gamma=2.14285e-7, delta_0=1.361e-9), hystrip.Level(8.09344e-7, 8.75034e-8)
     how = {"edge": "constitutive", "branch": "loading"}
     least = hystrip.friction_law(material, adhesion, level, V=2.94e-3, rtol=1e-9, **how).pull_off
-    how |= {"pressure": least * (1 - above), "velocity": 2.94e-3}
+    how |= {"pressure": least * (1 - np.array([1e-7, 4e-7])), "velocity": 2.94e-3}
     coarse, fine = (hystrip.solve(material, adhesion, level, rtol=rtol, **how) for rtol in (5e-3, 1e-6))
-    assert coarse.converged and fine.converged and coarse.counts["strips_solved"] < 2_500
-    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+    assert coarse.converged.all() and fine.converged.all() and coarse.counts["strips_solved"] < 4_200
+    assert (abs(coarse.tau - fine.tau) <= coarse.tau_error).all()
 
 
 @pytest.mark.filterwarnings("error")
@@ -208,8 +207,7 @@ def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("V", [2.09173e-6, 4e-6])
-def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
+def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out():
     """Within 1e-5 of ``h`` all gaps stop to open and pressure falls; nearer rounding decides it strip by strip. The law, built at
     once, is that of single pressures, searched for one by one, on both sides of what is jumped over."""
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.2743545e-5)
@@ -218,13 +216,16 @@ def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
         [hystrip.Level(1e-5, 7.90435e-7), hystrip.Level(1.67879e-6, 1.4224e-7)],
         {"edge": "constitutive", "branch": "loading"},
     )
+    V = np.array([2.09173e-6, 4e-6])
     coarse, fine = (hystrip.solve(material, adhesion, levels, pressure=0.425761, velocity=V, rtol=r, **how) for r in (1e-3, 1e-6))
-    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 6_000
-    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
-    law = hystrip.friction_law(material, adhesion, levels[1], V=V, rtol=1e-5, **how)
-    p = np.geomspace(0.3, 0.9, 7) * law.p_sat
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 9_500
+    assert (abs(coarse.tau - fine.tau) <= coarse.tau_error).all()
+    laws = [hystrip.friction_law(material, adhesion, levels[1], V=v, rtol=1e-5, **how) for v in V]
+    p = np.multiply.outer(np.geomspace(0.3, 0.9, 7), [law.p_sat for law in laws])
     each = hystrip.solve_level(material, adhesion, levels[1], V=V, pressure=p, rtol=1e-6, **how)
-    assert (np.abs(law(p) - each.tau_mean) <= law.error_estimate + each.error_estimate[1] + 1e-6 * law.tau_sat).all()
+    for i, law in enumerate(laws):
+        known = law.error_estimate + each.error_estimate[1, :, i] + 1e-6 * law.tau_sat
+        assert (np.abs(law(p[:, i]) - each.tau_mean[:, i]) <= known).all()
 
 
 @pytest.mark.filterwarnings("error")
@@ -252,7 +253,7 @@ def test_of_a_curve_above_the_least_pressure_before_nothing_is_interpolated(T_si
 def test_loading_has_no_rough_parts(monkeypatch):
     """Nor where the crest changes nowhere: of them only what unloading comes to is interpolated."""
     given = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8), hystrip.Level(5e-7, 1e-7)
-    how = {"V": 1e-3, "branch": "loading", "rtol": 1e-3}
+    how = {"V": 1e-3, "branch": "loading", "rtol": 1e-2}
     law, whole = hystrip.friction_law(*given, **how), curve.smooth_intervals
     monkeypatch.setattr(curve, "smooth_intervals", lambda *of: (whole(*of)[0], np.full(1, np.inf)))
     p = np.linspace(law.pull_off, law.p_sat, 50)
@@ -286,20 +287,20 @@ def test_what_loading_has_met_before_is_no_part_of_its_law(T_sigma, gamma, delta
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("away", [-1e-6, 1e-6])
 @pytest.mark.parametrize(("T_sigma", "gamma", "delta_0", "l", "h", "V", "edge"), SHORT_MEMORY)
-def test_a_pressure_is_not_looked_for_in_what_loading_has_met_before(T_sigma, gamma, delta_0, l, h, V, edge, away):  # noqa: E741
+def test_a_pressure_is_not_looked_for_in_what_loading_has_met_before(T_sigma, gamma, delta_0, l, h, V, edge):  # noqa: E741
     """Next to the pressure at which gaps stop to open: the curve just above that is not looked at closely, and a crossing
     just below it is not passed by."""
     material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
     level, how = hystrip.Level(l, h), {"V": V, "edge": edge, "branch": "loading", "rtol": 1e-6}
     opens = h - delta_0 - adhesion.p_0 / material.K
     met = hystrip.solve_level(material, adhesion, level, D=opens * (1 - 1e-9), **how).p_mean
-    found = hystrip.solve_level(material, adhesion, level, pressure=met * (1 + away), **how)
-    assert found.converged and found.strips < 12_000
-    before = np.minimum(found.D, opens) * (1 - np.append(0.0, np.geomspace(1e-8, 0.1, 20)))
-    there = hystrip.solve_level(material, adhesion, level, D=np.append(found.D, before), **how)
-    assert abs(there.p_mean[0] - found.p_mean) <= there.error_estimate[0, 0] + found.error_estimate[0]
+    found = hystrip.solve_level(material, adhesion, level, pressure=met * np.array([1 - 1e-6, 1 + 1e-6]), **how)
+    # each by itself takes half of them
+    assert found.converged.all() and found.strips < 12_000
+    before = np.multiply.outer(1 - np.append(0.0, np.geomspace(1e-8, 0.1, 20)), np.minimum(found.D, opens))
+    there = hystrip.solve_level(material, adhesion, level, D=np.vstack((found.D, before)), **how)
+    assert (abs(there.p_mean[0] - found.p_mean) <= there.error_estimate[0, 0] + found.error_estimate[0]).all()
     assert (there.p_mean[1:] <= found.p_mean + there.error_estimate[0, 1:] + found.error_estimate[0]).all()
 
 
@@ -368,15 +369,15 @@ def test_unloading_does_not_look_into_what_is_narrower_than_a_pressure_is_known(
     assert found.D[0] > opens and not found.D[1] > opens
 
 
-@pytest.mark.parametrize("V", [2e-6, 5e-6, 2e-5])
-def test_what_unloading_jumps_over_is_only_looked_at(V):
+def test_what_unloading_jumps_over_is_only_looked_at():
     """The same with ever longer memory: strips let go within 1e-9 to 1e-2 of ``h``, while the pressure rises."""
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.00205486)
     adhesion = hystrip.Dugdale(gamma=1.06382e-05, delta_0=4.67547e-08)
     levels = [hystrip.Level(1e-5, 1.64511e-6), hystrip.Level(2.84179e-6, 4.559e-7)]
-    coarse, fine = (hystrip.solve(material, adhesion, levels, pressure=2.64, velocity=V, rtol=rtol) for rtol in (1e-3, 1e-6))
-    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 5_000
-    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+    at = {"pressure": 2.64, "velocity": [2e-6, 5e-6, 2e-5]}
+    coarse, fine = (hystrip.solve(material, adhesion, levels, **at, rtol=rtol) for rtol in (1e-3, 1e-6))
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 7_000
+    assert (abs(coarse.tau - fine.tau) <= coarse.tau_error).all()
 
 
 def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypatch):

@@ -220,7 +220,7 @@ def test_what_hides_an_orbit_is_never_proven(n, kind, rising):
 def test_plain_iteration_ends_at_the_returned_orbits(n):
     """From far below and far above, period after period: the map alone, without bounds, candidates or boundary equations."""
     rng = np.random.default_rng(20 + n)
-    kernel, s = strips(rng, n, 400)
+    kernel, s = strips(rng, n, 200)
     order = Order(kernel, s)
     start = np.full(s.size, np.pi)
     settled_in_all = 0

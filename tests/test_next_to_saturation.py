@@ -34,7 +34,7 @@ def scene(seed):
 def saturating(seed):
     """Pressures from which contact is complete, of both branches."""
     material, adhesion, V, edge = scene(seed)
-    given = {"pressure": 1.0, "velocity": V, "edge": edge}
+    given = {"pressure": 1e12, "velocity": V, "edge": edge}
     return [float(hystrip.solve(material, adhesion, LEVEL, branch=b, **given).p_sat) for b in ("loading", "unloading")]
 
 

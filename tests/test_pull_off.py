@@ -140,11 +140,11 @@ def test_a_ripple_of_a_first_look_is_no_way_back_to_zero():
 
 
 @pytest.mark.filterwarnings("ignore::hystrip.ConvergenceWarning")
-@pytest.mark.parametrize("above", [1e-9, 3e-9, 1e-8])
-def test_what_carries_a_pressure_just_above_pull_off_is_not_cut_off(above):
+def test_what_carries_a_pressure_just_above_pull_off_is_not_cut_off():
     """All strips snap in at D = h - delta_0: saturated contact carries K (h/4 - delta_0) there, all that its parts are cut by."""
     of = (hystrip.StandardLinearSolid(1e9, 1e-2, 1e-5), hystrip.Dugdale(p_0=230.0, delta_0=7.2e-8), hystrip.Level(4e-7, 1e-7))
     how = {"V": 1e-5, "edge": "constitutive", "branch": "loading"}
+    above = np.array([1e-9, 3e-9, 1e-8])
     found = hystrip.solve_level(*of, pressure=-47.0 * (1 - above), **how)
     assert found.D == pytest.approx(28e-9 + 47e-9 * above, rel=1e-9)
     assert found.tau_mean == pytest.approx(hystrip.friction_law(*of, rtol=1e-3, **how).tau_sat, rel=1e-9)
@@ -157,7 +157,7 @@ def test_next_to_pull_off_estimates_hold(level):
     law = hystrip.friction_law(MATERIAL, ADHESION, level, **at, rtol=1e-6, below=0.0)
     p = law.pull_off + np.abs(law.pull_off) * np.array([1e-5, 1e-6, 1e-7])
     exact = hystrip.solve_level(MATERIAL, ADHESION, level, pressure=p, **at, rtol=1e-10)
-    for rtol in (1e-3, 1e-4, 1e-6):
+    for rtol in (1e-3, 1e-6):
         found = hystrip.solve_level(MATERIAL, ADHESION, level, pressure=p, **at, rtol=rtol)
         error = np.abs(found.tau_mean - exact.tau_mean)
         assert found.converged.all() and (error <= rtol * np.abs(exact.tau_mean)).all()
@@ -178,7 +178,8 @@ def test_first_passes_the_pressure_where_a_shallow_dip_does(T_eps, delta_0, p_0,
     found = hystrip.solve_level(*of, V=V, pressure=p, edge=edge, rtol=1e-4)
     above = hystrip.solve_level(*of, V=V, D=found.D + h * np.geomspace(1e-4, 0.1, 60), edge=edge, rtol=1e-4)
     assert above.p_mean.min() > p
-    assert found.tau_mean == pytest.approx(hystrip.friction_law(*of, V=V, edge=edge, rtol=1e-4)(p), rel=1e-3)
+    law = hystrip.friction_law(*of, V=V, edge=edge, rtol=1e-4, below=p)
+    assert found.tau_mean == pytest.approx(law(p), rel=1e-3)
 
 
 def test_loading_meets_a_pressure_just_before_strips_jump():
