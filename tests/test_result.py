@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -94,11 +95,18 @@ def test_a_penetration_that_was_given_is_told_and_a_bound_on_saturation_as_such(
     )
 
 
+@cache
+def two_levels(branch):
+    """In partial contact, and the regimes of their strips."""
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS[:2], pressure=100, velocity=5e-3, branch=branch, rtol=1e-2)
+    return result, regimes_by_level(result, 0)
+
+
+@pytest.mark.xdist_group("two levels")  # which are solved once
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 def test_regimes_of_every_level_agree_with_the_result(branch):
     """Two levels in partial contact: the strips looked at have the contact that the averages have."""
-    result = hystrip.solve(MATERIAL, ADHESION, LEVELS[:2], pressure=100, velocity=5e-3, branch=branch, rtol=1e-2)
-    first, second = regimes_by_level(result, 0)
+    result, (first, second) = two_levels(branch)
     assert first.area == 1 and second.area == result.contact_by_level[0]
     for i, each in enumerate((first, second)):
         assert each.contact == pytest.approx(result.contact_by_level[i], rel=0.02)
@@ -111,10 +119,10 @@ def test_regimes_of_every_level_agree_with_the_result(branch):
     assert f"{100 * second.shares[PULLED_OFF]:6.0f} %  {PULLED_OFF}" in text
 
 
+@pytest.mark.xdist_group("two levels")
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 def test_shares_of_regimes_are_known_as_well_as_is_said(branch, monkeypatch):
-    result = hystrip.solve(MATERIAL, ADHESION, LEVELS[:2], pressure=100, velocity=5e-3, branch=branch, rtol=1e-2)
-    rough = regimes_by_level(result, 0)
+    result, rough = two_levels(branch)
     monkeypatch.setattr(look, "_STRIPS", 600)
     monkeypatch.setattr(look, "_DEPTHS", (120, 60, 36))
     monkeypatch.setattr(look, "_FEWER", 120)
@@ -169,12 +177,13 @@ def test_summary_where_nothing_touches(branch):
 @pytest.mark.filterwarnings("error")
 def test_summary_says_that_its_pull_off_did_not_converge(monkeypatch):
     """And does not warn of a law that nobody asked for."""
-    law = hystrip.level_law.friction_law
+    law = cache(hystrip.level_law.friction_law)
 
     def unconverged(*of, **how):
         warnings.warn("the friction law did not converge", hystrip.ConvergenceWarning, stacklevel=2)
         return dataclasses.replace(law(*of, **how), converged=False)
 
+    monkeypatch.setattr(hystrip.level_law, "friction_law", law)
     result = solved(-5.0, 5e-3, LEVELS[:1])
     assert " Pa; regimes" in result.summary()
     monkeypatch.setattr(hystrip.level_law, "friction_law", unconverged)

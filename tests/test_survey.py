@@ -24,7 +24,8 @@ def test_a_scene_can_be_replayed():
     assert {scene["adhesion"].p_0 > 0 for scene in kinds} == {True, False}
 
 
-@pytest.mark.parametrize("number", range(8))
+# of both branches, with two levels and with four, without adhesion and with it
+@pytest.mark.parametrize("number", [0, 1, 3, 5])
 def test_wide_scenes_end_well(number):
     scene = survey.draw(20261127, number, wide=True)
     assert repr(scene) != repr(survey.draw(20261127, number))
