@@ -21,7 +21,7 @@ def test_a_narrow_island_is_not_passed_over(T_eps, p_0, delta_0, h, V, edge, D):
     of = hystrip.StandardLinearSolid(1e9, T_eps, 1e-3), hystrip.Dugdale(p_0=p_0, delta_0=delta_0)
     level = hystrip.Level(l=1e-5, h=h)
     equal = hystrip.solve_level(*of, level, V=V, D=D, edge=edge, strips=20_000)
-    for rtol in (1e-2, 1e-3, 1e-6):
+    for rtol in (1e-2, 1e-6):
         alone = hystrip.solve_level(*of, level, V=V, D=D, edge=edge, rtol=rtol)
         near = hystrip.solve_level(*of, level, V=V, D=D - h * np.array([0.0, 1e-6]), edge=edge, rtol=rtol)
         assert abs(alone.p_mean - equal.p_mean) <= alone.error_estimate[0] + equal.error_estimate[0]
