@@ -200,7 +200,7 @@ def test_a_scene_that_takes_too_long_is_refused(tool):
 
 def test_marched_strips_bear_the_estimates_out(tool):
     """A short run with ``--march``: the truth has nothing in common with the library."""
-    out = tool.marched(scenes=1, seed=1, tolerances=[1e-3, 1e-5], first=10, accuracy=1e-7)
+    out = tool.marched(scenes=1, seed=1, tolerances=[1e-3, 1e-5], first=5, accuracy=1e-7)
     assert not out.refused and len(out.points) == 4
     assert out.bounded == 1 and out.met == 1
 

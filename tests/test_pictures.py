@@ -282,9 +282,7 @@ def test_a_map_has_the_means_of_its_level():
     assert inside(found.plot()) and inside(level.plot("strip", y=2e-6))
 
 
-@pytest.mark.parametrize(
-    ("p", "h", "said"), [(1e8, 1e-6, "within 6.35 kPa"), (0, 0, "everywhere"), (3e3, 1e-6, None)]
-)
+@pytest.mark.parametrize(("p", "h", "said"), [(1e8, 1e-6, "within 6.35 kPa"), (0, 0, "everywhere"), (3e3, 1e-6, None)])
 def test_a_map_of_one_colour_says_how_even_the_pressure_is(p, h, said):
     result = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), [hystrip.Level(l=1e-5, h=h)], pressure=p, velocity=1e-3, rtol=1e-2)
     figure = result.plot("map")

@@ -49,10 +49,11 @@ def strips(n, wide, count, materials=40):
     return ModeStrips(m, P0, Delta, delta, m.J_0 * P0 >= Delta)
 
 
-def cost(n, wide, count):
-    """(microseconds, steps of marches to the next event) a strip of both branches together, and how many are not certified."""
+def cost(n, wide, count, times=3):
+    """(microseconds, steps of marches to the next event) a strip of both branches together, and how many are not certified:
+    measured so many ``times``."""
     batch, seconds = strips(n, wide, count), []
-    for _ in range(3):
+    for _ in range(times):
         start, steps = time.process_time(), []
         with patch.object(crossing, "_safe_step", partial(_counted, crossing._safe_step, steps)):
             found = [solve_modes(kernel, batch, unloading) for unloading in (True, False)]
