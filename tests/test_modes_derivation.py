@@ -33,7 +33,7 @@ from hystrip.derivation import (
     regenerate,
     stored_bounds,
 )
-from hystrip.derivation.certificates import certified_names, certify, measure
+from hystrip.derivation.certificates import certified_names, measure
 from hystrip.derivation.certificates.certify import measure_regimes
 from hystrip.derivation.certificates.material import measure_material
 from hystrip.derivation.emit import emit
@@ -369,7 +369,7 @@ def test_a_constant_of_the_operators_is_emitted_as_numpy_has_it() -> None:
     assert source(sp.E * T_1) == "np.e * T_1" and source(sp.pi) == "np.pi"
 
 
-# -- a user's model -----------------------------------------------------------------------------------------------------------
+# -- a user's model, of which test_packaging makes a solver -------------------------------------------------------------------
 
 FILE = '''\
 """A rubber with any number of relaxation times."""
@@ -377,34 +377,6 @@ from hystrip.derivation import prony_model
 
 MODEL = prony_model("my_rubber")
 '''
-
-
-def test_a_model_file_becomes_a_solver_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(certify, "COUNTS", (1,))  # how accurate it is, with more, is measured for the solver that ships
-    for each in (measure, measure_material, measure_regimes):
-        monkeypatch.setattr(certify, each.__name__, functools.partial(each, points=1))
-    file = tmp_path / "my_model.py"
-    file.write_text(FILE, encoding="utf-8")
-    seen: list[tuple[int, int]] = []
-    folder = tmp_path / "my_solver"
-    written = regenerate(folder, load_model(file), progress=lambda done, total: seen.append((done, total)))
-    measured = seen[-1][1]  # certificates are shown as they are made, too
-    assert seen == [(1, 1), *((done, measured) for done in range(1, measured + 1))]
-    names = {path.relative_to(folder).as_posix() for path in written}
-    assert names >= {
-        "__init__.py",
-        "stable.py",
-        "modes.py",
-        "my_rubber.py",
-        "certificates.json",
-        "audit/index.html",
-        "audit/my_rubber.html",
-    }
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["my_model.py", "my_solver"]
-    assert list(json.loads((folder / "certificates.json").read_text(encoding="utf-8"))["models"]) == ["my_rubber"]
-    # Nothing but the name tells it from the solver that ships.
-    mine, shipped = ((path).read_text(encoding="utf-8") for path in (folder / "my_rubber.py", Path(generalised.__file__)))
-    assert mine.replace("my_rubber", "generalised") == shipped
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
