@@ -67,7 +67,7 @@ def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[F
     level = cell.level
     x = np.linspace(-0.5, 0.5, _X) * level.l
     strip = cell.strip(np.asarray(number("y", y, "m")))
-    p, gap = strip.pressure(x), strip.gap(x)
+    p, gap = strip.fields(x)
     A, _ = level.strip(y, 0.0)
     own = p * A * level.k * np.sin(level.k * x)
     if len(result.levels) == 1:

@@ -90,6 +90,6 @@ def map_of(cell: Cell, points: tuple[int, int] = _POINTS) -> ContactMap:
     half = 0.5 * cell.level.l
     x, y = (np.linspace(-half, half, each) for each in points)
     strips = cell.strip(np.abs(y)[:, None])
-    p, gap = strips.pressure(x[None, :]), strips.gap(x[None, :])
+    p, gap = strips.fields(x[None, :])
     contact = gap <= 0
     return ContactMap(x, y, p, gap, contact, ~contact & (p < 0), -strips.a[:, 0], strips.b[:, 0], cell)

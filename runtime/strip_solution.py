@@ -78,13 +78,11 @@ class StripSolution:
     def pressure(self, x: Numbers) -> Floats:
         """Pressure at x, Pa. ``x`` (m) broadcasts against the strips. At an edge: the value on the side a material point meets
         later."""
-        p, _, scales = self._fields(x)
-        return p * scales["p"]
+        return self.fields(x)[0]
 
     def gap(self, x: Numbers) -> Floats:
         """Gap between foundation and rigid profile at x, m; zero in contact. ``x`` (m) broadcasts against the strips."""
-        _, gap, scales = self._fields(x)
-        return gap * scales["length"]
+        return self.fields(x)[1]
 
     def displacement(self, x: Numbers) -> Floats:
         """Displacement w of the foundation at x, m, positive into the foundation. ``x`` (m) broadcasts against the strips."""
@@ -99,23 +97,25 @@ class StripSolution:
 
         return strip_fields(self)
 
-    def _fields(self, x):
+    def fields(self, x: Numbers) -> tuple[Floats, Floats]:
+        """``pressure`` and ``gap`` at x, which are had together: Pa and m."""
         x = numbers("x", x, "m")
-        shape = broadcast(x=x, strips=self.p_mean)
-        scales = {n: np.broadcast_to(v, shape) for n, v in self._scales.items()}
-        index = np.broadcast_to(np.arange(self.p_mean.size).reshape(self.p_mean.shape), shape).ravel()
-        phase = (-scales["k"] * x).ravel()
-        flat = scales["flat"].ravel()
-        p, gap = np.empty(index.size), np.empty(index.size)
-        wavy = np.flatnonzero(~flat)
-        which = index[wavy]
+        shape, n = broadcast(x=x, strips=self.p_mean), self.p_mean.size
+        k, A, p_unit, flat = (self._scales[name] for name in ("k", "length", "p", "flat"))
+        # every strip has as many points: one row for each of these
+        order = np.argsort(np.broadcast_to(np.arange(n).reshape(self.p_mean.shape), shape).ravel(), kind="stable")
+        phase = (-k * x).ravel()[order].reshape(n, order.size // max(n, 1)).T
+        p, gap = np.empty((2, *phase.shape))
+        wavy, level = np.flatnonzero(~flat.ravel()), np.flatnonzero(flat)
         foundation = foundation_of(self._material).flat(self.p_mean.shape)  # not kept: its solver, a module, cannot be pickled
-        p[wavy], gap[wavy] = foundation.fields(self._strips.take(which), self._solved.take(which), phase[wavy])
-        level = np.flatnonzero(flat)
-        p[level] = self._solved.p_mean[index[level]]
-        contact = self._solved.code[index[level]] == CODE["c"]
-        gap[level] = np.where(contact, 0.0, p[level] - self._strips.D[index[level]])
-        return p.reshape(shape), gap.reshape(shape), {"p": scales["p"], "length": scales["length"]}
+        p[:, wavy], gap[:, wavy] = foundation.fields(self._strips.take(wavy), self._solved.take(wavy), phase[:, wavy])
+        p[:, level] = self._solved.p_mean[level]
+        contact = self._solved.code[level] == CODE["c"]
+        gap[:, level] = np.where(contact, 0.0, p[:, level] - self._strips.D[level])
+        out = np.empty((2, order.size))
+        out[:, order] = (p * p_unit.ravel()).T.ravel(), (gap * A.ravel()).T.ravel()
+        pressure, opening = out.reshape(2, *shape)
+        return pressure, opening
 
 
 def solve_strip(

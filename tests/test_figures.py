@@ -58,6 +58,6 @@ def test_fig7_peaks_where_eq_16_corrected_says():
 
 
 def test_an_unknown_figure_is_refused_before_any_work(tmp_path):
-    with pytest.raises(hystrip.InputError, match="figures: got 'fig8'"):
+    with pytest.raises(hystrip.InputError, match="only: got 'fig8'"):
         draw(["fig7", "fig8"], tmp_path / "out")
     assert not (tmp_path / "out").exists() and len(FIGURES) == 5

@@ -43,7 +43,7 @@ def data() -> dict[str, Any]:
     level = scene.levels[0]
     x, y = np.linspace(-0.5, 0.5, _X) * level.l, np.linspace(-0.5, 0.5, _Y) * level.l
     strips = strips_at(scene, D, np.abs(level.k * y)[:, None])
-    p, gap = strips.pressure(x[None, :]), strips.gap(x[None, :])
+    p, gap = strips.fields(x[None, :])
     X, Y = np.meshgrid(x, y)
     table = {"x [m]": X, "y [m]": Y, "pressure [Pa]": p, "gap [m]": gap, _FIRST: -strips.a, _LAST: strips.b}
     return {name: np.broadcast_to(values, X.shape).ravel() for name, values in table.items()}

@@ -28,7 +28,7 @@ def data() -> dict[str, Any]:
     theta = all_theta[shown]
     x = np.linspace(-0.5, 0.5, _X) * level.l
     strips = strips_at(scene, D, theta[:, None])
-    p, gap = strips.pressure(x[None, :]), strips.gap(x[None, :])
+    p, gap = strips.fields(x[None, :])
     own = p * level.amplitude(theta)[:, None] * level.k * np.sin(level.k * x)
     law = hystrip.friction_law(
         scene.material, scene.adhesion, scene.levels[1], V=float(scene.velocity), edge=scene.edge, branch=scene.branch, rtol=1e-4

@@ -14,6 +14,7 @@ from ..errors import InputError, SolverError
 from ..inputs.materials import parameters
 from ..numerics.rounding import LARGEST
 from .at_rest import AT_REST, SLOW, solve_at_rest
+from .batch import at_points
 from .groups import TWO_PI, snaps_in
 from .nonadhesive import Waves
 from .regimes import CODE, ZONES
@@ -149,30 +150,31 @@ class Foundation(ABC):
         return next(entry for zone, _, entry in self.zones(sequence, edges, strips) if zone == "c")
 
     def fields(self, strips, solved: Solved, phase) -> tuple[np.ndarray, np.ndarray]:
-        """Dimensionless pressure and gap at one phase of each strip; at an edge those of the zone which begins there."""
-        p, gap = np.zeros(strips.size), np.zeros(strips.size)
+        """Dimensionless pressure and gap at phases (points, N) of each strip; at an edge those of the zone which begins there."""
+        p, gap = np.zeros((2, *phase.shape))
         for sequence, code in CODE.items():
             index = np.flatnonzero(solved.code == code)
             if not index.size:
                 continue
-            s, later = strips.take(index), phase[index]
+            s, later = strips.take(index), phase[:, index]
             if sequence == "c":
                 storage, loss, _ = self.moduli(s)
-                p[index] = s.D - 1 + storage * np.cos(later) - loss * np.sin(later)
+                p[:, index] = s.D - 1 + storage * np.cos(later) - loss * np.sin(later)
             elif sequence in ("a", "f"):
-                p[index] = 0.0 if sequence == "f" else -s.p_0
-                gap[index] = p[index] - self.kernel.profile(later, s.D)
+                p[:, index] = 0.0 if sequence == "f" else -s.p_0
+                gap[:, index] = p[:, index] - self.kernel.profile(later, s.D)
             else:
                 edges = [getattr(solved, name)[index] for name in ZONES[sequence][1]]
                 later = edges[0] + np.mod(later - edges[0], TWO_PI)
                 for zone, start, entry in self.zones(sequence, edges, s):
                     inside, at, none = later >= start, np.maximum(later, start), np.zeros(index.size)
                     if zone == "c":
-                        pressure, open_ = self.kernel.excess_event(at, *self.excess(start, entry, s))[0] - s.p_0, none
+                        excess = self.kernel.excess_event(at, *at_points(self.excess(start, entry, s)))[0]
+                        pressure, open_ = excess - s.p_0, none
                     else:
                         pressure = -s.p_0 if zone == "a" else none
-                        open_ = self.kernel.gap_event(at, *self.gap(start, entry, pressure, s))[0]
-                    p[index], gap[index] = np.where(inside, pressure, p[index]), np.where(inside, open_, gap[index])
+                        open_ = self.kernel.gap_event(at, *at_points(self.gap(start, entry, pressure, s)))[0]
+                    p[:, index], gap[:, index] = np.where(inside, pressure, p[:, index]), np.where(inside, open_, gap[:, index])
         return p, gap
 
     def event(self, sequence: str, number: int, edges, strips) -> tuple:

@@ -58,3 +58,8 @@ class Ranges(Batch):
 def pick(value, index):
     """What belongs to the strips ``index`` of the last axis; a value or an axis of length one is shared and stays."""
     return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]
+
+
+def at_points(constants):
+    """Constants of strips as functions at phases (points, N) take them: what is had per mode, (n, N), as (n, 1, N)."""
+    return [constant[:, None] if np.ndim(constant) > 1 else constant for constant in constants]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..numerics.roots import falling_root
-from .batch import pick
+from .batch import at_points, pick
 from .regimes import CODE, ZONES
 from .solved import Solved
 
@@ -64,7 +64,7 @@ class Contact:
         """Pressure above -p_0 in partial contact, in the strip's own unit, and its slope, at phases (m,) or (nodes, m)."""
         constants = [pick(constant, rows) for constant in self.constants]
         if phase.ndim > 1:
-            constants = [constant[:, None] if constant.ndim > 1 else constant for constant in constants]
+            constants = at_points(constants)
         return self.event(phase, *constants)
 
     def pressure(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
