@@ -206,6 +206,16 @@ def test_what_a_law_was_cut_below_is_in_the_error():
     assert (one[:, 0] <= 1.001 * other[:, -1]).all()
 
 
+def test_a_law_that_is_but_cut_is_not_stretched_to_saturation():
+    """On a contact next to pull-off a law counts for little, and may end anywhere: cut at 11 Pa as well as saturated at 87 Pa."""
+    adhesion = hystrip.Dugdale(p_0=0.365812, delta_0=6.06193e-7)
+    levels = [hystrip.Level(l=1e-5, h=6.99935e-7), hystrip.Level(l=3.13101e-6, h=3.66892e-8)]
+    options = {"velocity": 2.58436e-4, "branch": "loading", "rtol": 1e-2}
+    result = hystrip.solve(NO_RELAXATION, adhesion, levels, pressure=-0.1806204848, **options)
+    # to 1e-6
+    assert np.abs(result.tau_by_level[1] - 3.0227e-7) <= result.tau_error
+
+
 def test_segments_of_a_law_are_merged_where_a_smooth_one_is_as_good():
     law, p = _stepwise(BREAKS[1], 2e4, 2.0005e4), np.linspace(BREAKS[0], BREAKS[2], 999)[1:-1]
     for rtol, count in ((1e-2, 1), (1e-3, 2)):

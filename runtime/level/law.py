@@ -176,10 +176,11 @@ def _padded(rows: Sequence[np.ndarray]) -> np.ndarray:
     return out
 
 
-def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
-    """The segments up to saturation; those that end where another begins, but for their errors, end there: that is one break."""
+def _joined(kept: list[Segment], p_sat: float, end: float) -> list[Segment]:
+    """The segments up to saturation; those that end where another begins, but for their errors, end there: that is one break.
+    The last one ends at ``end``: that is ``p_sat``, or inf where the law is but cut."""
     kept = [s for s in kept if s.p_low < p_sat]
-    ends = [*(s.p_low for s in kept[1:]), p_sat]
+    ends = [*(s.p_low for s in kept[1:]), end]
     return [
         replace(s, p_high=end) if meets(s, abs(end - s.p_high)) else s for s, end in zip(kept, ends[: len(kept)], strict=True)
     ]
@@ -199,7 +200,8 @@ def build_laws(
     least = np.repeat(1e-15 * np.abs(saturated.means), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]
     every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
-    segments = [_joined([next(every) for _ in row], end) for row, end in zip(kept, saturated.p, strict=True)]
+    ends = zip(kept, saturated.p, np.where(p_max < np.inf, np.inf, saturated.p), strict=True)
+    segments = [_joined([next(every) for _ in row], *end) for row, *end in ends]
     pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, saturated.p, strict=True)])
     top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
     top += _SAME * np.where(np.isfinite(top), np.abs(top), 0.0)
