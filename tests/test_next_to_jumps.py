@@ -178,3 +178,14 @@ def test_what_lies_behind_where_a_pressure_is_met_waits_until_it_is_not(unloadin
     if met:
         walk.go_on(found, branches_of([[*walk.known, *found]], unloading)[0], False)
         assert walk.now is None and first.low < walk.root.D < first.high
+
+
+def test_a_pressure_that_is_not_told_from_a_turn_is_not_met_there():
+    """Next to pull-off an average that errs by more than the pressure misses sent the search to the turn, from where it did not
+    come back."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.5658004136844694e-05)
+    of = material, hystrip.Dugdale(gamma=3.8780701487999996e-08, delta_0=1.12176e-08), hystrip.Level(l=1e-5, h=6.50664e-8)
+    options = {"V": 3.31875e-5, "edge": "constitutive", "pressure": -0.19795806322507023}
+    level = hystrip.solve_level(*of, **options, rtol=1e-3)
+    # to 1e-8
+    assert abs(level.tau_mean - 4.2952077102e-4) <= level.error_estimate[1]
