@@ -99,6 +99,13 @@ MUTANTS = (
         "test_error_estimate.py",
     ),
     Mutant(
+        "a pressure that is not told from a turn is looked for there",
+        "level/inverse.py",
+        "stay = (np.clip(step, low, high) != step) & ",
+        "stay = (np.clip(step, low, high) == np.inf) & ",
+        "test_next_to_jumps.py",
+    ),
+    Mutant(
         "a slope next to a turn from beyond it",
         "level/walk.py",
         "np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS)",
@@ -223,6 +230,13 @@ MUTANTS = (
         "(self._ends[end, self._between[end][group, at]]",
         "(self._ends[end, self._between[1 - end][group, at]]",
         "test_error_budget.py",
+    ),
+    Mutant(
+        "a law that is but cut ends at saturation",
+        "level/law.py",
+        "np.where(p_max < np.inf, np.inf, saturated.p), strict=True)",
+        "saturated.p, strict=True)",
+        "test_lower_levels.py",
     ),
     Mutant(
         "errors of a law cancel where all pressures are alike",
