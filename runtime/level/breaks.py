@@ -20,6 +20,8 @@ from .changes import Changes, locate_changes
 from .regime_map import OPENS, by_equation, hides_another, straight, theta_of
 from .strips import LevelBatch
 
+#: breaks nearer than this to one another, in heights, are one
+ONE_BREAK = 1e-12
 #: penetrations of a scan where regimes follow one another
 _SCAN = 32
 #: strips looked at across an island and along its way, and how often at most, ever closer to where it vanishes: the tip of a
@@ -76,7 +78,7 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
     ends = np.concatenate((changes.high, valley[row[changes.size : -2 * m], which], D[:, [0, -1]].ravel()))
     order = np.lexsort((ends, row))
     row, ends = row[order], ends[order]
-    apart = np.flatnonzero((np.diff(row) == 0) & (np.diff(ends) > 1e-12 * h))
+    apart = np.flatnonzero((np.diff(row) == 0) & (np.diff(ends) > ONE_BREAK * h))
     return row[apart], ends[apart], ends[apart + 1], touched
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from .branches import Piece
-from .breaks import between_breaks, first_contact, scan
+from .breaks import ONE_BREAK, between_breaks, first_contact, scan
 from .error_budget import ErrorBudget
 from .interpolation import Intervals, interpolate, means_in
 from .regime_map import OPENS, straight
@@ -64,7 +64,7 @@ def without_hidden(columns: LevelBatch, intervals: Intervals, atol: np.ndarray) 
     K, h = columns.material.K, columns.level.h
     # nearer to a threshold than that rounding decides strip by strip
     opens, nearest, known = h + columns.opens, 64 * EPS * (h - columns.opens), atol[intervals.column] / K
-    inside = (np.abs(intervals.low - opens) <= nearest + 1e-12 * h) & (columns.branch == "loading") & (columns.stretch > 0)
+    inside = (np.abs(intervals.low - opens) <= nearest + ONE_BREAK * h) & (columns.branch == "loading") & (columns.stretch > 0)
     # where all may err by more than it falls there nothing is looked for
     inside &= np.maximum(intervals.width, intervals.atol[:, 0] / K) < _SHORT * h
     inside &= intervals.width > np.maximum(nearest / _APART[0], known)
