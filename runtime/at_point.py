@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,7 +75,14 @@ def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[F
         return x, [own]
     below = np.zeros(x.size)
     inside = gap <= 0
-    lower = Surface(result.material, result.adhesion, result.levels[1:], cell.edge, cell.branch, _RTOL, True, WorkCounters())
-    solved = solve_points(lower, np.full(int(inside.sum()), cell.V), p[inside], True)
-    below[inside] = solved.tau.sum(axis=0)
+    of, how = (result.material, result.adhesion), (cell.edge, cell.branch, _RTOL, True, WorkCounters())
+    if result.adhesion.p_0 > 0 and not any(level.is_flat for level in result.levels):
+        # the laws that the strip carries: each pressure by itself would be looked for along the whole curve
+        surface, V = Surface(*of, result.levels, *how, laws=_RTOL), np.array([cell.V])
+        columns = replace(surface.columns(0, V), D=np.array([cell.D]))
+        laws = surface.carrying(V, np.zeros(1, int), columns).carry.laws
+        below[inside] = laws(np.zeros(np.count_nonzero(inside), int), p[inside])[:, 1 + laws.frictions].sum(axis=1)
+    else:
+        lower = Surface(*of, result.levels[1:], *how)
+        below[inside] = solve_points(lower, np.full(np.count_nonzero(inside), cell.V), p[inside], True).tau.sum(axis=0)
     return x, [own, below]

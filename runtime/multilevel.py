@@ -95,6 +95,32 @@ class Surface:
             out.insert(0, Saturation(p, D, np.column_stack((p, *means))))
         return out
 
+    def carrying(self, V, group, columns: LevelBatch) -> LevelBatch:
+        """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
+        M, carry, groups = len(self.levels), None, np.arange(V.size)
+        saturated, across = self.saturated(V), strips_across(columns)
+        budget = error_budget(columns, group, across)
+        rtol = np.full(V.size, self.laws)
+        friction = rtol * budget.friction_of_laws(M - 1, V.size)
+        # the greatest pressures that the laws of level 2 and below are asked for
+        reached = [_most(group, peak_pressure(columns, across), V.size)]
+        for i in range(1, M - 1):
+            level = self.columns(i, V)
+            highest = replace(level, D=cut_penetration(level, reached[-1], saturated[i].D))
+            reached.append(peak_pressure(highest, strips_across(highest)))
+        for i in range(M - 1, 0, -1):
+            level = replace(self.columns(i, V), carry=carry, group=groups)
+            atol = level.atol(rtol, fraction=1.0)
+            least = np.minimum(atol[:, level.frictions], (rtol * self.friction_floor)[:, None])
+            atol[:, level.frictions] = np.maximum(least, friction[:, None])
+            counts = budget if i == 1 else budget.further_down(2 * (M - 1))
+            laws = build_laws(level, rtol, atol, saturated[i], reached[i - 1], counts)
+            # what the next level up carries: all but this level's pressure, and an error, which never asks for anything
+            scales = np.concatenate((level.scales[1:], [LARGEST]))
+            scales[level.frictions - 1] = np.minimum(scales[level.frictions - 1], 1e3 * self.friction_floor)
+            carry = LowerLevelLaws(merged(laws, rtol, atol), self.rtol, scales)
+        return replace(columns, carry=carry, group=group)
+
     def full(self, V, load, by_pressure: bool) -> np.ndarray:
         """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: beyond that of the fastest all are."""
         of = lambda V: self.saturated(V)[0].p if by_pressure else self.saturated(V)[0].D  # noqa: E731
@@ -210,34 +236,8 @@ class _Solve:
         if self.M > 1 and families:
             columns, atol = self._carrying_families(V, group, columns, index, rtol)
         elif self.M > 1:
-            columns = self._carrying(V, group, columns)
+            columns = surface.carrying(V, group, columns)
         self._write(index, found.take(touching), level_means(columns, rtol, atol))
-
-    def _carrying(self, V, group, columns: LevelBatch) -> LevelBatch:
-        """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
-        surface, carry, groups = self.surface, None, np.arange(V.size)
-        saturated, across = surface.saturated(V), strips_across(columns)
-        budget = error_budget(columns, group, across)
-        rtol = np.full(V.size, surface.laws)
-        friction = rtol * budget.friction_of_laws(self.M - 1, V.size)
-        # the greatest pressures that the laws of level 2 and below are asked for
-        reached = [_most(group, peak_pressure(columns, across), V.size)]
-        for i in range(1, self.M - 1):
-            level = surface.columns(i, V)
-            highest = replace(level, D=cut_penetration(level, reached[-1], saturated[i].D))
-            reached.append(peak_pressure(highest, strips_across(highest)))
-        for i in range(self.M - 1, 0, -1):
-            level = replace(surface.columns(i, V), carry=carry, group=groups)
-            atol = level.atol(rtol, fraction=1.0)
-            least = np.minimum(atol[:, level.frictions], (rtol * surface.friction_floor)[:, None])
-            atol[:, level.frictions] = np.maximum(least, friction[:, None])
-            counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
-            laws = build_laws(level, rtol, atol, saturated[i], reached[i - 1], counts)
-            # what the next level up carries: all but this level's pressure, and an error, which never asks for anything
-            scales = np.concatenate((level.scales[1:], [LARGEST]))
-            scales[level.frictions - 1] = np.minimum(scales[level.frictions - 1], 1e3 * surface.friction_floor)
-            carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)
-        return replace(columns, carry=carry, group=group)
 
     def _carrying_families(self, V, group, columns: LevelBatch, index, rtol) -> tuple[LevelBatch, np.ndarray]:
         """The same without adhesion, and the absolute tolerances that go with ``rtol`` (n,)."""
