@@ -98,10 +98,10 @@ class StripSolution:
         return strip_fields(self)
 
     def fields(self, x: Numbers) -> tuple[Floats, Floats]:
-        """``pressure`` and ``gap`` at x, which are had together: Pa and m."""
+        """``pressure`` (Pa) and ``gap`` (m) at x, which are had together. ``x`` (m) broadcasts against the strips."""
         x = numbers("x", x, "m")
         shape, n = broadcast(x=x, strips=self.p_mean), self.p_mean.size
-        k, A, p_unit, flat = (self._scales[name] for name in ("k", "length", "p", "flat"))
+        k, length, stress, flat = (self._scales[name] for name in ("k", "length", "p", "flat"))
         # every strip has as many points: one row for each of these
         order = np.argsort(np.broadcast_to(np.arange(n).reshape(self.p_mean.shape), shape).ravel(), kind="stable")
         phase = (-k * x).ravel()[order].reshape(n, order.size // max(n, 1)).T
@@ -113,7 +113,7 @@ class StripSolution:
         contact = self._solved.code[level] == CODE["c"]
         gap[:, level] = np.where(contact, 0.0, p[:, level] - self._strips.D[level])
         out = np.empty((2, order.size))
-        out[:, order] = (p * p_unit.ravel()).T.ravel(), (gap * A.ravel()).T.ravel()
+        out[:, order] = (p * stress.ravel()).T.ravel(), (gap * length.ravel()).T.ravel()
         pressure, opening = out.reshape(2, *shape)
         return pressure, opening
 
