@@ -178,8 +178,8 @@ MUTANTS = (
     Mutant(
         "a coarse curve tells the side of a jump",
         "level/inverse.py",
-        "finest, narrow = _CLOSEST * size",
-        "finest, narrow = rtol * size",
+        "in zip(same.tolist(), _CLOSEST * size[same], strict=True)",
+        "in zip(same.tolist(), rtol * size[same], strict=True)",
         "test_next_to_jumps.py",
     ),
     Mutant(

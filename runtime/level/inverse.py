@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +12,7 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import LARGEST
 from ..orbit.batch import Batch
 from .averages import Averages, level_means
-from .branches import branches_of
+from .branches import Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .curve import without_hidden
 from .interpolation import Intervals, interpolate
@@ -98,14 +100,10 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
     """``invert`` with adhesion: to where the curve passes the pressure first, for all that is known of it once it is refined."""
-    h, q, unloading, bottom = columns.level.h, columns.scales.size, columns.branch == "unloading", first_contact(columns)
-    out, left, floor = Penetrations.at(p * np.nan), np.arange(p.size), 1e-3 * columns.scales[0]
-    size, ways = np.abs(p) + floor, [growing(bottom, top, _NEXT * h, unloading) for top in cut_penetration(columns, p, full)]
-    goal = np.maximum(_ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
-    finest, narrow = _CLOSEST * size, _CLOSEST * size / columns.material.K
-    walks = [Walk(i, unloading, *of) for i, *of in zip(left, p, goal, finest, ways, narrow, strict=True)]
+    h, q, floor, left = columns.level.h, columns.scales.size, 1e-3 * columns.scales[0], np.arange(p.size)
+    out, (walks, finest), looks = Penetrations.at(p * np.nan), _walks(columns, p, full, rtol, floor), {}
     while left.size:
-        _go_along(columns, [walks[i] for i in left], finest)
+        _go_along(columns, [walks[i] for i in left], finest, looks)
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or Root(np.nan, 0.0, np.zeros(q)) for i in left), strict=True)))
         found, steep = _refine_steep(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
         other = np.array([walks[i].other + np.zeros(q) for i in left])
@@ -134,28 +132,64 @@ def _refine_steep(columns: LevelBatch, p: np.ndarray, root: Root, rtol: float, f
     return found, steep
 
 
-def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray) -> None:
-    """All walks together, part by part, to where their curves first pass their pressures, at last known to ``finest``, Pa."""
-    bottom = first_contact(columns)
+def _walks(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float, floor: float) -> tuple[list[Walk], np.ndarray]:
+    """A walk for each pressure; and what the curve may err by at last, Pa (n,). Those of one velocity go along the same parts,
+    known as finely as any asks for."""
+    unloading, bottom, tops = columns.branch == "unloading", first_contact(columns), cut_penetration(columns, p, full)
+    size, finest, walks = np.abs(p) + floor, np.empty(p.size), {}
+    for V in np.unique(columns.V):
+        same = np.flatnonzero(columns.V == V)
+        finest[same] = _CLOSEST * size[same].min()
+        rough = np.maximum(_ROUGH * (np.abs(p[same]) + columns.scales[0]), rtol * size[same]).min()
+        arrive, last = (tops[same], bottom) if unloading else ([bottom], tops[same].max())
+        parts = growing(arrive, last, _NEXT * columns.level.h)[::-1]
+        for i, least in zip(same.tolist(), _CLOSEST * size[same], strict=True):
+            way = [part for part in parts if part[0] < tops[i]]
+            walks[i] = Walk(i, unloading, p[i], rough, least, way, least / columns.material.K)
+    return [walks[i] for i in range(p.size)], finest
+
+
+def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray, known: dict) -> None:
+    """All walks together, part by part, to where their curves first pass their pressures, at last known to ``finest``, Pa (n,).
+    ``known``: what one of them has looked at is so for all of its velocity."""
     while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
-        if fresh := [walk for walk in going if walk.now is None]:
-            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
-            row, low, high, _ = between_breaks(columns, np.array([walk.column for walk in fresh]), D)
-            # at the top the curve is but cut, or saturates
-            ends = np.array((low, high, (low == D[row, 0]) & (low > bottom), high == D[row, -1]))
-            for k, walk in enumerate(fresh):
-                walk.goal, walk.now = walk.rough, ends[:, row == k]
-        low, high, *inner = np.concatenate([walk.now for walk in going], axis=1)
-        column = np.repeat([walk.column for walk in going], [walk.now.shape[1] for walk in going])
-        # of all quantities the pressure alone is asked for
-        rtol, atol = np.zeros(columns.size), np.full((columns.size, columns.scales.size), LARGEST)
-        atol[[walk.column for walk in going], 0] = [walk.goal for walk in going]
-        intervals = Intervals.of(column, low, high, rtol, atol)
-        intervals.inner_low[:], intervals.inner_high[:] = (v > 0 for v in inner)
-        pieces = interpolate(columns, without_hidden(columns, intervals, finest), first=_FIRST)
-        known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], columns.branch == "unloading")
-        for walk, row in zip(going, known, strict=True):
-            walk.go_on(pieces[walk.column], row, bool(columns.spent[walk.column] > CURVE_LIMIT))
+        fresh = [walk for walk in going if walk.now is None]
+        parts = [(columns.V[walk.column], *walk.waiting[-1]) for walk in fresh]
+        for walk, intervals in zip(fresh, _once(known, parts, fresh, partial(_divided, columns)), strict=True):
+            walk.enter(intervals)
+        asked = [(columns.V[walk.column], walk.goal, walk.now.tobytes()) for walk in going]
+        found = _once(known, asked, going, partial(_pieces, columns, finest))
+        rows = branches_of([[*walk.known, *more] for walk, more in zip(going, found, strict=True)], columns.branch == "unloading")
+        for walk, more, row in zip(going, found, rows, strict=True):
+            walk.go_on(more, row, bool(columns.spent[walk.column] > CURVE_LIMIT))
+
+
+def _once(known: dict, keys: list[tuple], walks: list[Walk], make: Callable[[list[Walk]], Iterable]) -> list:
+    """What is ``known`` by the key of each walk; what is not is made, for all together, of one walk each."""
+    if missing := {key: walk for key, walk in zip(keys, walks, strict=True) if key not in known}:
+        known |= zip(missing, make([*missing.values()]), strict=True)
+    return [known[key] for key in keys]
+
+
+def _divided(columns: LevelBatch, walks: list[Walk]) -> list[np.ndarray]:
+    """The next part of the way of each walk between its breaks, as ``Walk.now``."""
+    bottom, D = first_contact(columns), np.linspace(*np.array([walk.waiting[-1] for walk in walks]).T, _LOOKS, axis=1)
+    row, low, high, _ = between_breaks(columns, np.array([walk.column for walk in walks]), D)
+    # at the top the curve is but cut, or saturates
+    ends = np.array((low, high, (low == D[row, 0]) & (low > bottom), high == D[row, -1]))
+    return [ends[:, row == k] for k in range(len(walks))]
+
+
+def _pieces(columns: LevelBatch, finest: np.ndarray, walks: list[Walk]) -> list[list[Piece]]:
+    """The curve where each walk asks for it: of all quantities the pressure alone."""
+    column = np.array([walk.column for walk in walks])
+    rtol, atol = np.zeros(columns.size), np.full((columns.size, columns.scales.size), LARGEST)
+    atol[column, 0] = [walk.goal for walk in walks]
+    low, high, *inner = np.concatenate([walk.now for walk in walks], axis=1)
+    intervals = Intervals.of(np.repeat(column, [walk.now.shape[1] for walk in walks]), low, high, rtol, atol)
+    intervals.inner_low[:], intervals.inner_high[:] = (v > 0 for v in inner)
+    pieces = interpolate(columns, without_hidden(columns, intervals, finest), first=_FIRST)
+    return [pieces[i] for i in column]
 
 
 def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = False):

@@ -4,6 +4,7 @@ The curve is interpolated part by part until the pressure lies on a branch of it
 leaves open which, what comes to the pressure is interpolated again, finer, or divided where strips change over.
 """
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -31,14 +32,21 @@ class Root(NamedTuple):
     high: float | np.ndarray = np.nan
 
 
-def growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
-    """The way between two penetrations in parts that grow from the end at which the branch arrives; the last one first."""
-    gone, width, parts = 0.0, max(width, EPS * (top - bottom)), []
-    while gone < top - bottom:
-        end = gone + width if top - bottom - gone > 2 * width else top - bottom
-        parts.append((max(top - end, bottom), top - gone) if unloading else (bottom + gone, min(bottom + end, top)))
-        gone, width = end, 2 * width
-    return parts[::-1]
+def growing(arrive: Iterable[float], last: float, width: float) -> list[tuple[float, float]]:
+    """Parts, low and high ends, of the way to the penetration ``last`` from where walks ``arrive``, the first furthest from it:
+    parts grow from ``width``, and again where others arrive, whom only short ones pass by."""
+    sign = 1 if min(arrive) < last else -1
+    starts, end, parts = sorted(sign * D for D in arrive), sign * last, []
+    at, first = starts[0], max(width, EPS * (end - starts[0]))
+    step = first
+    while at < end:
+        to = at + step if end - at > 2 * step else end
+        others = starts[bisect_right(starts, at) : bisect_left(starts, to)]
+        if others and step > first:
+            to = others[0]
+        parts.append((at, to) if sign > 0 else (-to, -at))
+        at, step = to, first if others else 2 * step
+    return parts
 
 
 @dataclass
@@ -63,6 +71,11 @@ class Walk:
     arrived: bool = False
     undecided: str = ""
     other: np.ndarray | float = 0.0
+
+    def enter(self, intervals: np.ndarray) -> None:
+        """Take the ``intervals`` of the next part, as ``now``."""
+        self.waiting.pop()
+        self.goal, self.now = self.rough, intervals
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is

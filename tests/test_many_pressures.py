@@ -1,0 +1,57 @@
+"""Many pressures at one velocity: what one of them has looked at along the curve is known to all others."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import hystrip
+from hystrip.level.walk import growing
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+SURFACE = MATERIAL, hystrip.Dugdale(p_0=2500.0, delta_0=1e-8), [hystrip.Level(5e-7, 1e-7)]
+PRESSURES = np.geomspace(1, 2e4, 48)
+
+
+@pytest.mark.parametrize(("branch", "share"), [("unloading", 0.7), ("loading", 0.4)])
+def test_pressures_of_one_velocity_share_what_is_looked_at(branch, share):
+    def solve(p):
+        return hystrip.solve(*SURFACE, pressure=p, velocity=7e-4, branch=branch, rtol=1e-6)
+
+    some = PRESSURES[::12]
+    together, alone = solve(PRESSURES), [solve(p) for p in some]
+    known, error = (np.array([getattr(one, name) for one in alone]).squeeze() for name in ("tau", "tau_error"))
+    assert together.converged.all()
+    assert (np.abs(together.tau.squeeze()[::12] - known) <= 0.1 * error + 1e-15 * known).all()
+    strips = sum(one.counts["strips_solved"] for one in alone) * PRESSURES.size / some.size
+    assert together.counts["strips_solved"] < share * strips
+
+
+def test_velocities_share_nothing():
+    p, V = np.meshgrid(PRESSURES[::12], [1e-4, 7e-4, 1e-2])
+    together = hystrip.solve(*SURFACE, pressure=p.ravel(), velocity=V.ravel())
+    alone = [hystrip.solve(*SURFACE, pressure=p[0], velocity=v).tau.squeeze() for v in V[:, 0]]
+    assert together.tau.squeeze() == pytest.approx(np.ravel(alone), rel=1e-12)
+
+
+penetrations = st.floats(-1e3, 1e3).filter(lambda D: D == 0 or abs(D) > 1e-6)
+
+
+@given(st.lists(penetrations, min_size=1, max_size=9), st.floats(1e-3, 10), st.booleans())
+def test_a_way_leads_from_all_that_arrive_to_its_end(arrive, width, down):
+    last = min(arrive) - 5.0 if down else max(arrive) + 5.0
+    parts = growing(arrive, last, width)
+    parts = parts[::-1] if down else parts
+    assert (parts[0][0], parts[-1][1]) == ((last, max(arrive)) if down else (min(arrive), last))
+    assert all(a[1] == b[0] and a[0] < a[1] for a, b in pairwise(parts))
+    for low, high in parts:
+        if any(low < D < high for D in arrive):
+            # what arrives inside a part has next to nothing of it in vain: it is a short one
+            assert high - low <= 2 * width * (1 + 1e-9) or (last in (low, high) and high - low <= 4 * width)
+
+
+def test_a_way_grows_from_where_it_begins():
+    widths = [high - low for low, high in growing([0.0], -63.0, 1.0)]
+    assert widths == [1, 2, 4, 8, 16, 32]
