@@ -176,6 +176,13 @@ MUTANTS = (
         "test_next_to_jumps.py",
     ),
     Mutant(
+        "a look below serves what is far above it",
+        "level/averages.py",
+        "if (V, k) not in seen}",
+        "if not seen}",
+        "test_shared_looks.py",
+    ),
+    Mutant(
         "a coarse curve tells the side of a jump",
         "level/inverse.py",
         "in zip(same.tolist(), _CLOSEST * size[same], strict=True)",
@@ -346,8 +353,8 @@ MUTANTS = (
     Mutant(
         "islands below a given penetration are not looked for",
         "level/averages.py",
-        "if columns.adhesion.p_0 > 0 and columns.strips is None:",
-        "if columns.adhesion.p_0 < 0:",
+        "for below in _BELOW if columns",
+        "for below in () if columns",
         "test_islands.py",
     ),
     Mutant(

@@ -33,7 +33,7 @@ _SHARE, _SLIVER = 0.4, 0.03
 _VALLEY, _NEAREST, _FARTHEST = 10.0, 1e-14, 1e-3
 #: how far from a known break strips are that detect a narrow zone, in the same way: narrower ones do not affect the result
 _NEXT, _CLOSEST = 0.3, 1e-6
-#: how far below a penetration, in heights, it is looked for islands, as roughly
+#: how far below a penetration, in heights, it is looked for islands, about, and how roughly
 _BELOW, _ROUGH = (0.003, 0.02, 0.1), 1e-2
 #: smallest error claimed for a panel, as a share of its tolerance: a layer may be too thin to show at its nodes
 _LEAST = 1e-6
@@ -65,10 +65,15 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
 
 def look_below(columns: LevelBatch) -> None:
     """Locate the curves that divide the strips of ``columns`` from a little below, and their turns: as a level is drawn out
-    islands of strips that let go appear, too narrow for nodes at first."""
-    if columns.adhesion.p_0 > 0 and columns.strips is None:
-        column, below = np.arange(columns.size).repeat(len(_BELOW)), columns.level.h * np.tile(_BELOW, columns.size)
-        level_means(columns.at(column, columns.D[column] - below), np.full(column.size, _ROUGH))
+    islands of strips that let go appear, too narrow for nodes at first. A look serves all that lie about as far above it."""
+    looks: dict[tuple[float, float], int] = {}
+    for below in _BELOW if columns.adhesion.p_0 > 0 and columns.strips is None and columns.level.h > 0 else ():
+        cell = below * columns.level.h
+        seen = {(V, D // cell) for V, D in looks}
+        places = enumerate(zip(columns.V.tolist(), (columns.D // cell - 1).tolist(), strict=True))
+        looks |= {(V, (k + 0.5) * cell): i for i, (V, k) in places if (V, k) not in seen}
+    if looks:
+        level_means(columns.at([*looks.values()], np.array([D for _, D in looks])), np.full(len(looks), _ROUGH))
         columns.crossings.turned(columns)
 
 

@@ -156,7 +156,8 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray, known:
         fresh = [walk for walk in going if walk.now is None]
         parts = [(columns.V[walk.column], *walk.waiting[-1]) for walk in fresh]
         for walk, intervals in zip(fresh, _once(known, parts, fresh, partial(_divided, columns)), strict=True):
-            walk.enter(intervals)
+            walk.waiting.pop()
+            walk.goal, walk.now = walk.rough, intervals
         asked = [(columns.V[walk.column], walk.goal, walk.now.tobytes()) for walk in going]
         found = _once(known, asked, going, partial(_pieces, columns, finest))
         rows = branches_of([[*walk.known, *more] for walk, more in zip(going, found, strict=True)], columns.branch == "unloading")

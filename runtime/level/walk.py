@@ -42,8 +42,7 @@ def growing(arrive: Iterable[float], last: float, width: float) -> list[tuple[fl
     while at < end:
         to = at + step if end - at > 2 * step else end
         others = starts[bisect_right(starts, at) : bisect_left(starts, to)]
-        if others and step > first:
-            to = others[0]
+        to = others[0] if others and step > first else to
         parts.append((at, to) if sign > 0 else (-to, -at))
         at, step = to, first if others else 2 * step
     return parts
@@ -71,11 +70,6 @@ class Walk:
     arrived: bool = False
     undecided: str = ""
     other: np.ndarray | float = 0.0
-
-    def enter(self, intervals: np.ndarray) -> None:
-        """Take the ``intervals`` of the next part, as ``now``."""
-        self.waiting.pop()
-        self.goal, self.now = self.rough, intervals
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is

@@ -1,4 +1,4 @@
-"""Many pressures at one velocity: what one of them has looked at along the curve is known to all others."""
+"""Many pressures, or penetrations, at one velocity: what was looked at along the curve for one of them is known to all others."""
 
 from itertools import pairwise
 
@@ -34,6 +34,19 @@ def test_velocities_share_nothing():
     together = hystrip.solve(*SURFACE, pressure=p.ravel(), velocity=V.ravel())
     alone = [hystrip.solve(*SURFACE, pressure=p[0], velocity=v).tau.squeeze() for v in V[:, 0]]
     assert together.tau.squeeze() == pytest.approx(np.ravel(alone), rel=1e-12)
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+def test_penetrations_that_are_near_share_a_look_below(branch):
+    def solve(D):
+        return hystrip.solve_level(*SURFACE[:2], SURFACE[2][0], V=7e-4, D=D, branch=branch, rtol=1e-4)
+
+    D = np.linspace(-3e-8, 1.5e-7, 200)
+    together, alone = solve(D), [solve(each) for each in D[::40]]
+    for name, size in (("p_mean", 100.0), ("tau_mean", 20.0)):
+        each = np.array([getattr(one, name) for one in alone])
+        assert getattr(together, name)[::40] == pytest.approx(each, rel=1e-4, abs=1e-4 * size)
+    assert together.strips < 0.8 * sum(one.strips for one in alone) * 40
 
 
 penetrations = st.floats(-1e3, 1e3).filter(lambda D: D == 0 or abs(D) > 1e-6)
