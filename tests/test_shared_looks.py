@@ -68,3 +68,7 @@ def test_a_way_leads_from_all_that_arrive_to_its_end(arrive, width, down):
 def test_a_way_grows_from_where_it_begins():
     widths = [high - low for low, high in growing([0.0], -63.0, 1.0)]
     assert widths == [1, 2, 4, 8, 16, 32]
+
+
+def test_a_way_of_no_length_has_no_parts():
+    assert growing([0.0, 0.0], 0.0, 1.0) == []

@@ -135,8 +135,9 @@ def _refine_steep(columns: LevelBatch, p: np.ndarray, root: Root, rtol: float, f
 def _walks(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float, floor: float) -> tuple[list[Walk], np.ndarray]:
     """A walk for each pressure; and what the curve may err by at last, Pa (n,). Those of one velocity go along the same parts,
     known as finely as any asks for."""
-    unloading, bottom, tops = columns.branch == "unloading", first_contact(columns), cut_penetration(columns, p, full)
-    size, finest, walks = np.abs(p) + floor, np.empty(p.size), {}
+    unloading, bottom = columns.branch == "unloading", first_contact(columns)
+    tops, size = np.maximum(cut_penetration(columns, p, full), bottom), np.abs(p) + floor
+    finest, walks = np.empty(p.size), {}
     for V in np.unique(columns.V):
         same = np.flatnonzero(columns.V == V)
         finest[same] = _CLOSEST * size[same].min()
