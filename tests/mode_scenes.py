@@ -5,7 +5,8 @@ of A and K A.
 """
 
 import numpy as np
-from oracle import march, modes
+from marches import MEANS, marched
+from oracle import modes
 from oracle.flow import CONSTITUTIVE
 from oracle.orbits import Unresolved
 from scenes import log_uniform
@@ -64,8 +65,10 @@ def viscous(scenes, branch):
 def exact(scene, branch, digits=modes.DIGITS):
     """The reference march's solution; that of a Kelvin-Voigt foundation for a scene that says ``viscous``."""
     if scene.get("viscous"):
-        return march.solve(0, scene["theta"][0], scene["P0"], scene["Delta"], scene["delta"], CONSTITUTIVE, branch, digits)
-    return modes.solve(scene["theta"].tolist(), scene["m"].tolist(), scene["P0"], scene["Delta"], scene["delta"], branch, digits)
+        of = "solve_viscous", 0, scene["theta"][0], scene["P0"], scene["Delta"], scene["delta"], CONSTITUTIVE
+    else:
+        of = "solve", scene["theta"], scene["m"], scene["P0"], scene["Delta"], scene["delta"]
+    return marched(*of, branch, digits)
 
 
 def misfit(scene, found, i, true):
@@ -96,9 +99,6 @@ def spread(scene, branch, true):
             one = lambda each: type("One", (), {k: [float(getattr(each, k))] for k in MEANS})  # noqa: E731
             worst = max(worst, misfit(scene, one(moved), 0, true))
     return worst
-
-
-MEANS = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 
 def compare(scene, branch, found, i):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from oracle import modes as oracle
+from marches import marched
 
 import hystrip
 from hystrip.orbit.foundation import foundation_of
@@ -122,7 +122,7 @@ def test_strips_ever_closer_to_the_end_of_a_branch_are_found(case):
     first = p = solved(D, *STRIPS[case]).p_mean
     reach = A + abs(end) + delta_0
     for i in (0, -1):
-        true = float(oracle.solve_si(K, moduli, times, V, l, A, D[i], p_0, delta_0, branch, digits=30).p_mean)
+        true = marched("solve_si", K, moduli, times, V, l, A, D[i], p_0, delta_0, branch, 30).p_mean
         assert first[i] == pytest.approx(true, abs=1e-9 * (abs(true) + K * A + p_0))
     while D[1] - D[0] > CLOSE.get(case, 1e-13) * reach:
         step = np.abs(np.diff(p)).argmax()
@@ -137,9 +137,9 @@ def test_past_the_end_of_a_branch_links_are_shortened_until_they_hold():
     branch, moduli, times, p_0, delta_0, l, A, end, V = case  # noqa: E741
     D = end + (A + end) * np.linspace(-0.02, 0.02, 20)[8:14]
     found = solved(D, *case)
-    true = [oracle.solve_si(K, moduli, times, V, l, A, each, p_0, delta_0, branch, digits=30) for each in D]
+    true = [marched("solve_si", K, moduli, times, V, l, A, each, p_0, delta_0, branch, 30) for each in D]
     assert found.regime.tolist() == [each.sequence for each in true]
-    assert found.p_mean == pytest.approx([float(each.p_mean) for each in true], rel=1e-12)
+    assert found.p_mean == pytest.approx([each.p_mean for each in true], rel=1e-12)
 
 
 #: contact ends, or begins, within rounding of what the state or a phase can tell: as ``STRIPS``
@@ -284,9 +284,9 @@ def test_adhesion_that_hardly_lasts_is_found(case):
     branch, moduli, times, p_0, delta_0, l, A, at, V = SHORT[case]  # noqa: E741
     D = at + A * np.array([-1e-3, -1e-6, 0, 1e-6, 1e-3])
     found = solved(D, *SHORT[case])
-    true = [oracle.solve_si(K, moduli, times, V, l, A, each, p_0, delta_0, branch, digits=30) for each in D]
+    true = [marched("solve_si", K, moduli, times, V, l, A, each, p_0, delta_0, branch, 30) for each in D]
     assert found.regime.tolist() == [each.sequence for each in true]
-    assert found.p_mean == pytest.approx([float(each.p_mean) for each in true], rel=1e-12)
+    assert found.p_mean == pytest.approx([each.p_mean for each in true], rel=1e-12)
 
 
 def test_a_narrow_contact_far_from_the_first_guess_is_found():
@@ -304,9 +304,9 @@ def test_a_narrow_contact_far_from_the_first_guess_is_found():
     )
     branch, moduli, times, p_0, delta_0, l, A, D, V = strip  # noqa: E741
     found = solved(D, *strip)
-    true = oracle.solve_si(K, moduli, times, V, l, A, D, p_0, delta_0, branch, digits=20)
+    true = marched("solve_si", K, moduli, times, V, l, A, D, p_0, delta_0, branch, 20)
     assert found.regime == true.sequence
-    assert found.p_mean == pytest.approx(float(true.p_mean), rel=1e-12)
+    assert found.p_mean == pytest.approx(true.p_mean, rel=1e-12)
 
 
 def test_edges_are_known_as_well_as_is_said():

@@ -1,5 +1,8 @@
-"""A few dozen of the stored truths computed again with the oracle, to the last stored digit."""
+"""A few dozen of the stored truths, and of the stored marches, computed again with the oracle, to the last stored digit."""
 
+import json
+
+import marches
 import numpy as np
 import pytest
 from oracle import march
@@ -18,3 +21,12 @@ def test_truth(row):
         assert float(getattr(found, name)) == t[name]
     for name in "abcd":
         assert float(found.edges.get(name, np.nan)) == pytest.approx(t[name], rel=0, abs=0, nan_ok=True)
+
+
+#: by number of times: of fifteen one takes as long as all others
+MARCHES = sorted(marches.STORED, key=len)[:: len(marches.STORED) // 15]
+
+
+@pytest.mark.parametrize("of", MARCHES, ids=range(len(MARCHES)))
+def test_march(of):
+    assert marches.computed(*json.loads(of)) == marches.STORED[of]
