@@ -12,6 +12,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import pytest
+from mpmath.libmp import libelefun
+
 import hystrip.derivation
 from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
 from hystrip.derivation.drift import audit_texts
@@ -53,6 +56,15 @@ def audited_with(certificates: dict[str, Any], measured: dict[str, Any]) -> dict
 @functools.cache
 def _audited_with(figures: str) -> dict[str, str]:
     return audit_texts(derivations(), emitted(), *json.loads(figures))
+
+
+@pytest.fixture(scope="module")
+def series_once():
+    """Exponentials and sines of many digits, each computed once. Three of four are asked for again, as a function is evaluated
+    at a point and, for its scale, next to it in one input: they are told by argument, precision and kind, all integers."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(libelefun, "exponential_series", functools.lru_cache(2**16)(libelefun.exponential_series))
+        yield
 
 
 def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:

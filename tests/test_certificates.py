@@ -12,7 +12,7 @@ from typing import ClassVar
 import mpmath
 import numpy as np
 import pytest
-from derived_once import derivation
+from derived_once import derivation, series_once  # noqa: F401
 
 from hystrip.derivation import CertificateError, generated_folder, regenerate, stored_bounds
 from hystrip.derivation.certificates import measure
@@ -29,7 +29,7 @@ from hystrip.generated import stable, standard_linear_solid
 sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 from mutants_derivation import beyond_bounds  # noqa: E402
 
-pytestmark = pytest.mark.xdist_group("derivation")
+pytestmark = [pytest.mark.xdist_group("derivation"), pytest.mark.usefixtures("series_once")]
 
 NAMES = sorted(stored_bounds()["standard_linear_solid"])
 

@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from derived_once import derivations, emitted, tampered
+from derived_once import derivations, emitted, series_once, tampered  # noqa: F401
 
 from hystrip import InputError
 from hystrip.derivation import (
@@ -46,7 +46,7 @@ from hystrip.derivation.regenerate import AIM
 from hystrip.derivation.symbols import K
 from hystrip.generated import generalised, kelvin_voigt, modes
 
-pytestmark = pytest.mark.xdist_group("derivation")
+pytestmark = [pytest.mark.xdist_group("derivation"), pytest.mark.usefixtures("series_once")]
 
 SOLVERS = {solver.MODEL: solver for solver in (kelvin_voigt, generalised)}
 
