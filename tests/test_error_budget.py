@@ -137,15 +137,15 @@ def test_coarser_laws_give_the_same_friction_for_less(monkeypatch):
     assert _friction(V=FAST, rtol=FINE).counts["strips_solved"] < 0.9 * even.counts["strips_solved"]
 
 
-@pytest.mark.parametrize(("V", "edge"), [(3e-4, "continuous"), (3e-4, "constitutive"), (5e-3, "continuous")])
-def test_unloading_ends_where_no_penetration_carries_less(V, edge):
+@pytest.mark.parametrize(
+    ("V", "edge", "least"),
+    [(3e-4, "continuous", -1128.56145436), (3e-4, "constitutive", -1128.56145436), (5e-3, "continuous", -663.52136315)],
+)
+def test_unloading_ends_where_no_penetration_carries_less(V, edge, least):
     """Pull-off against a scan of equal strips over all penetrations, where the crest and where the rims hold longest."""
-    level = LEVELS[1]
-    law = hystrip.friction_law(MATERIAL, ADHESION, level, V=V, edge=edge, rtol=1e-3, below=-500.0)
-    D = np.linspace(-2.42e-6, -2e-7, 300)
-    p = hystrip.solve_level(MATERIAL, ADHESION, level, V=V, D=D, edge=edge, strips=400).p_mean
-    # a jump in y costs equal strips one part in 400 of what jumps
-    assert law.pull_off == pytest.approx(p.min(), abs=ADHESION.p_0 / 400)
+    law = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], V=V, edge=edge, rtol=1e-3, below=-500.0)
+    # of 300 penetrations from -2.42 to -0.2 um, 400 strips each: a jump in y costs one part in 400 of what jumps
+    assert law.pull_off == pytest.approx(least, abs=ADHESION.p_0 / 400)
 
 
 def test_cells_follow_functions_as_closely_as_asked():
@@ -218,8 +218,9 @@ def test_a_break_that_is_hardly_known_may_hide_as_much_friction_as_is_around_it(
         hystrip.Level(6.425763651437568e-08, 1.8980205476647202e-08),
     ]
     at = {"pressure": 12.023912567691406, "velocity": 0.00502483171755842}
-    coarse, fine = (hystrip.solve(material, adhesion, levels, rtol=rtol, **at) for rtol in (1e-5, 1e-6))
-    assert coarse.converged and abs(coarse.tau - fine.tau) <= coarse.tau_error
+    found = hystrip.solve(material, adhesion, levels, rtol=1e-5, **at)
+    # at 1e-8
+    assert found.converged and abs(found.tau - 0.757188212971) <= found.tau_error
 
 
 def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
@@ -264,8 +265,9 @@ def test_what_lower_levels_carry_in_a_jump_of_the_curve_is_uncertain(in_jump):
 
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
-    ("T_sigma", "gamma", "delta_0", "levels", "pressure", "V", "rtol", "how"),
+    ("T_sigma", "gamma", "delta_0", "levels", "pressure", "V", "rtol", "how", "exact"),
     [
+        # exact: at a thousandth of rtol
         (
             2.99e-9,
             3.22e-11,
@@ -275,17 +277,27 @@ def test_what_lower_levels_carry_in_a_jump_of_the_curve_is_uncertain(in_jump):
             1.3032,
             2e-5,
             ("unloading", "continuous"),
+            7.27072209e-6,
         ),
-        (5.56e-4, 6.395e-18, 3.24e-14, [(1e-5, 1.35e-9), (2.65e-6, 7.94e-7)], 3.06e-4, 5.1, 5e-5, ("loading", "continuous")),
+        (
+            5.56e-4,
+            6.395e-18,
+            3.24e-14,
+            [(1e-5, 1.35e-9), (2.65e-6, 7.94e-7)],
+            3.06e-4,
+            5.1,
+            5e-5,
+            ("loading", "continuous"),
+            3.3130714395e-10,
+        ),
     ],
 )
 def test_a_lower_level_that_is_far_rougher_errs_by_no_more_than_the_friction_of_level_1(
-    T_sigma, gamma, delta_0, levels, pressure, V, rtol, how
+    T_sigma, gamma, delta_0, levels, pressure, V, rtol, how, exact
 ):
     """Its own natural scale is a thousand times that of what is asked for."""
     material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
     levels, how = [hystrip.Level(*each) for each in levels], dict(zip(("branch", "edge"), how, strict=True))
     r = hystrip.solve(material, adhesion, levels, pressure=pressure, velocity=V, rtol=rtol, **how)
-    fine = hystrip.solve(material, adhesion, levels, pressure=pressure, velocity=V, rtol=0.1 * rtol, **how)
     assert r.converged.all() and r.counts["strips_solved"] < 5_000
-    assert fine.converged.all() and abs(r.tau - fine.tau) <= r.tau_error + fine.tau_error
+    assert abs(r.tau - exact) <= r.tau_error
