@@ -97,8 +97,8 @@ def test_scenes_of_which_next_to_nothing_is_left(scene):
     result.summary()
 
 
-#: pressures at which a plane clings, Pa, and one at which it does not; friction of the wave that the planes below carry, alone, at
-#: 1e-7
+#: pressures at which a plane clings, Pa, and one at which it does not; friction of the wave alone that
+#: the planes below carry, at 1e-7
 HELD, BEYOND = [-1.0, -8.0, 3.0], -10.1
 ALONE_LOADED = [60.402462805, 28.372090498, 65.164976487]
 
