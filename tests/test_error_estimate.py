@@ -218,18 +218,26 @@ def test_a_step_within_what_either_average_misses_is_no_slope():
         assert error <= bounds[0, 1] and (error <= off if errors.any() else error > off)
 
 
-@pytest.mark.parametrize("edge", ["continuous", "constitutive"])
-@pytest.mark.parametrize("branch", ["unloading", "loading"])
-def test_friction_coefficients_at_penetrations_err_as_their_pressures_do(edge, branch):
+@pytest.mark.parametrize(("edge", "branch", "D", "mu", "pressure"), [
+    # penetrations that 0.05 Pa are carried at; mu and pressure at 1e-11
+    ("continuous", "unloading", [5.74063584809e-07, 5.43564235723e-07], [712.0828693, 202.01960642],
+     [0.0500000022916, 0.0500000000045]),
+    ("continuous", "loading", [8.72667342893e-08, 6.53649089243e-08], [52.659005323, 11.5126748709],
+     [0.0499999999953, 0.0499999975393]),
+    ("constitutive", "unloading", [5.62241619808e-07, 5.26953051696e-07], [734.9232561, 255.86418293],
+     [0.0500000038132, 0.0499999992309]),
+    ("constitutive", "loading", [5.48444603417e-08, 2.95600634316e-08], [48.5878886703, 17.9055836163],
+     [0.0499999981364, 0.049999998774]),
+])  # fmt: skip
+def test_friction_coefficients_at_penetrations_err_as_their_pressures_do(edge, branch, D, mu, pressure):
     """Next to no pressure a thousandth of what it is held against is all of it: of mu that was up to 265 times the estimate."""
     of = hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8), hystrip.Level(1e-5, 1e-6)
     how = {"velocity": np.array([3.2e-3, 1e-2]), "edge": edge, "branch": branch}
-    D = hystrip.solve(*of, pressure=0.05, rtol=1e-6, **how).penetration
-    found, finer = (hystrip.solve(*of, penetration=D, rtol=rtol, **how) for rtol in (1e-3, 1e-10))
-    assert (np.abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate).all()
+    found = hystrip.solve(*of, penetration=D, rtol=1e-3, **how)
+    assert (np.abs(found.mu - mu) <= found.error_estimate).all()
     assert (found.error_estimate > found.tau_error / np.abs(found.pressure)).all()
     assert (found.error_estimate < 0.1 * found.mu).all()
-    assert (np.abs(found.pressure - finer.pressure) <= found.pressure_error + finer.pressure_error).all()
+    assert (np.abs(found.pressure - pressure) <= found.pressure_error).all()
     assert (found.pressure_error > 0).all() and not hystrip.solve(*of, pressure=0.05, rtol=1e-3, **how).pressure_error.any()
 
 
