@@ -300,11 +300,11 @@ def test_the_error_of_a_law_counts_in_full_where_all_pressures_are_alike():
     [
         # level 2 alone, to 1e-9 and 1e-12
         (0.0, 43.15, 2.957e-8, 3.783e-7, -13.95, 1.5103e-4, 1e-3, 3.36881438942),
-        (1.54858676e-4, 377.7835, 1.176366975e-9, 3.17245766e-7, 150.0, 5.4955185e-4, 1e-6, 15.9920301189268),
+        (1.54858676e-4, 377.7835, 1.176366975e-9, 3.17245766e-7, 130.0, 5.4955185e-4, 3e-5, 13.86374639092),
     ],
 )
 def test_errors_of_a_law_hardly_cancel_where_all_pressures_are_alike(T_sigma, p_0, delta_0, wavelength, p, V, rtol, alone):
-    """Level 1 is all but flat: level 2 rubs as it does by itself. Were errors to cancel, the second would be eleven times off."""
+    """Level 1 is all but flat: level 2 rubs as it does by itself. Were errors to cancel, the second would be ten times off."""
     material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(p_0=p_0, delta_0=delta_0)
     flat, small = hystrip.Level(20 * wavelength, 2e-12 * wavelength), hystrip.Level(wavelength, 1e-7)
     both = hystrip.solve(material, adhesion, [flat, small], pressure=[p], velocity=V, rtol=rtol)
