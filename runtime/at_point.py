@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .arguments import check_level_number, point_index
-from .contact_map import Cell, map_of
+from .contact_map import Cell
 from .errors import InputError
 from .inputs.checks import number
 from .level_solution import solve_level
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 
 #: accuracy of the penetration of a lower level, and of the friction of the levels below; enough for a picture
 _RTOL = 1e-3
-#: points of the map from which the mean pressure in contact is taken
-_COARSE = (201, 101)
 #: points along a strip
 _X = 601
 
@@ -46,17 +45,18 @@ def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: i
     if not np.isfinite(D):
         p = float(np.ravel(result.pressure)[index])
         raise InputError("at", index, f"a point in contact: at {p:g} Pa and {V:g} m/s the surface is pulled off")
-    cell = Cell(result.material, result.adhesion, result.levels[0], D, V, result.edge, result.branch)
-    for level in result.levels[1:number_of_level]:
-        above = map_of(cell, _COARSE)
-        inside = above.pressure[above.contact]
-        if not inside.size:
+    of, how = (result.material, result.adhesion), {"edge": result.edge, "branch": result.branch}
+    for upper, level in pairwise(result.levels[:number_of_level]):
+        # at the penetration of the level above, and of that the exact means: contact may be of a few points of a map
+        above = solve_level(*of, upper, V=V, D=D, rtol=_RTOL, **how)
+        if not above.contact_fraction > 0:
             raise InputError("level", number_of_level, "a level that the contact of the one above reaches")
-        p = max(float(inside.mean()), 0.0)
-        how = {"edge": result.edge, "branch": result.branch}
-        solved = solve_level(result.material, result.adhesion, level, V=V, pressure=p, rtol=_RTOL, **how)
-        cell = Cell(result.material, result.adhesion, level, float(solved.D), V, result.edge, result.branch)
-    return cell
+        p = float((above.p_mean + result.adhesion.p_0 * above.adhesion_fraction) / above.contact_fraction)
+        D = float(solve_level(*of, level, V=V, pressure=p, rtol=_RTOL, **how).D)
+        if not np.isfinite(D):
+            allowed = f"a level that is not pulled off by the mean pressure in the contact of the one above, {p:.4g} Pa"
+            raise InputError("level", number_of_level, allowed)
+    return Cell(*of, result.levels[number_of_level - 1], D, V, result.edge, result.branch)
 
 
 def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[Floats]]:

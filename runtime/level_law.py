@@ -108,7 +108,7 @@ def friction_law(
     built = p_sat if below is None or below >= p_sat else float(below)
     if built < p_sat and laws.pull_off[0] >= built:
         # nothing is carried up to there: what can be is seen above
-        laws = _laws(columns, rtol, np.full(1, np.inf))
+        laws, built = _laws(columns, rtol, np.full(1, np.inf)), p_sat
     pull_off, error = float(laws.pull_off[0]), float(laws.friction_error[0])
     if not adhesion.p_0 > 0:
         # contact begins at zero pressure, and there is none at it

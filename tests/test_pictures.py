@@ -356,8 +356,22 @@ def test_stresses_along_a_strip_are_those_of_the_levels():
     law = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], V=5e-3, rtol=1e-3)
     touching = strip.gap(x) <= 0
     assert np.allclose(below[touching], law(strip.pressure(x[touching])), rtol=2e-3, atol=1.0) and not below[~touching].any()
+
+
+@pytest.mark.parametrize("pressure", [-200.0, -100.0, 1.0, 100.0])
+def test_a_lower_level_is_looked_at_under_the_mean_pressure_in_contact(pressure):
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=pressure, velocity=5e-3, rtol=1e-3)
     lower = cell_of(result, 0, 2)
-    assert lower.level == LEVELS[1] and np.isfinite(lower.D)
+    assert lower.level == LEVELS[1]
+    of = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[1], V=5e-3, D=lower.D, rtol=1e-3)
+    mean = (pressure + ADHESION.p_0 * result.adhesion_by_level[0]) / result.contact_by_level[0]
+    assert of.p_mean == pytest.approx(mean, rel=2e-3)
+
+
+def test_a_lower_level_that_the_mean_pressure_pulls_off_is_refused():
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=-400.0, velocity=2e-3, rtol=1e-3)
+    with pytest.raises(hystrip.InputError, match="not pulled off by the mean pressure in the contact of the one above, -1000 Pa"):
+        result.contact_map(level=2)
 
 
 def test_a_loop_has_pull_off_and_closes():

@@ -32,9 +32,11 @@ def test_law_and_level_agree_where_only_the_rims_hold(law):
 
 
 def test_a_law_that_is_asked_for_nothing_it_carries_knows_its_pull_off():
-    """Built up to a pressure below pull-off it is zero there; the pull-off is the level's."""
+    """Asked for up to a pressure below pull-off it is zero there; the pull-off is the level's."""
     law = hystrip.friction_law(MATERIAL, ADHESION, LEVEL, V=2e-2, rtol=1e-3, below=-2000.0)
     assert law.pull_off == pytest.approx(-660.0, abs=1.0) and law(-2100.0) == 0
+    # then it is built up to saturation, which can be asked for and drawn
+    assert law.below == law.p_sat and law(0.0) > 0
 
 
 def test_a_law_does_not_go_on_within_a_jump_of_its_curve():
