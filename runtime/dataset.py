@@ -128,6 +128,12 @@ def axis_names(inputs: dict[str, np.ndarray], shape: tuple[int, ...]) -> tuple[s
     return tuple(names)
 
 
+def check_levels_of(data: Dataset, levels: int) -> None:
+    """Raise ``ValueError`` unless a dataset has all ``levels``, in their order."""
+    if not np.array_equal(data["level"], np.arange(1, levels + 1)):
+        raise ValueError(f"of {levels} levels it has {data['level'].values.tolist()}")
+
+
 def about(kind: str) -> dict[str, Any]:
     """What the file holds, and what wrote it."""
     from ._version import __version__

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
-from .dataset import FORMAT
+from .dataset import FORMAT, check_levels_of
 from .errors import InputError
 from .extras import require
 from .files import path_of
@@ -64,7 +64,12 @@ def load(path: str | os.PathLike[str], kind: Any = None, *, solver: Solver | Non
     made, read = _READ[found]
     if kind is not None and made != kind.__name__:
         raise InputError("path", os.fspath(path), f"a file that holds a {kind.__name__}; this holds a {made}")
-    return read(data, solver)
+    try:
+        return read(data, solver)
+    except InputError:
+        raise
+    except (KeyError, TypeError, ValueError) as error:  # a part of it, which xarray has cut out and written
+        raise InputError("path", os.fspath(path), f"{_WHOLE}, with all that is in it: {_first_line(error)}") from None
 
 
 def _opened(path: str | os.PathLike[str]) -> Dataset:
@@ -91,6 +96,7 @@ def _opened(path: str | os.PathLike[str]) -> Dataset:
 
 def _result(data: Dataset, solver: Solver | None) -> Result:
     levels, attrs = levels_of(data.attrs["levels"]), data.attrs
+    check_levels_of(data, len(levels))
     names = data["mu"].dims
     known = {each.name for each in fields(Result)}
     arrays = {name: _full(data, name, names) for name in map(str, data.variables) if name in known}
@@ -118,7 +124,7 @@ def _level(data: Dataset, solver: Solver | None) -> LevelSolution:
     return LevelSolution(
         D=_full(data, "penetration", names),
         **means,
-        error_estimate=data["error_estimate"].values,
+        error_estimate=data["error_estimate"].transpose("mean", *names).values,
         pulled_off=_full(data, "pulled_off", names),
         converged=_full(data, "converged", names),
         strips=int(attrs["strips_evaluated"]),
@@ -143,8 +149,8 @@ def _asked(attrs: dict[str, Any]) -> dict[str, Any]:
 
 def _full(data: Dataset, name: str, names: tuple[Any, ...]) -> np.ndarray:
     """A variable over all axes, a level axis in front where it has one."""
-    variable = data[name]
-    dims = ("level", *names) if "level" in variable.dims else names
+    dims = ("level", *names) if "level" in data[name].dims else names
+    variable = data[name].transpose(*dims, missing_dims="ignore")
     index = tuple(slice(None) if each in variable.dims else None for each in dims)
     shape = tuple(data.sizes[each] for each in dims)
     return np.array(np.broadcast_to(variable.values[index], shape))

@@ -189,6 +189,41 @@ def test_a_sweep_is_kept_with_the_variables_of_a_result(over, tmp_path):
     assert again.to_dataset().identical(data) and list(again.to_dataframe().columns) == list(sweep.columns)
 
 
+@pytest.mark.parametrize(
+    ("cut", "says"),
+    [
+        (lambda data: data.isel(velocity=[0]), "not all values of velocity"),
+        (lambda data: data.isel(velocity=[1, 0]), "not all values of velocity"),
+        (lambda data: data.isel(level=[1, 0]), r"of 2 levels it has \[2, 1\]"),
+        (lambda data: data.drop_vars("tau"), "tau"),
+    ],
+)
+def test_a_part_of_a_sweep_is_no_sweep(cut, says, tmp_path):
+    over = {"pressure": [50.0, 100.0], "velocity": [1e-3, 5e-3]}
+    (tmp_path / "s.toml").write_text(SWEPT + "[[levels]]\nl = 1e-6\nh = 1e-8\n")
+    sweep = hystrip.sweep(tmp_path / "s.toml", over=over, out=tmp_path / "out")
+    data = sweep.to_dataset()
+    data.transpose("velocity", "level", "pressure").to_netcdf(tmp_path / "t.nc")
+    assert bits(hystrip.load(tmp_path / "t.nc").columns["mu"]) == bits(sweep.columns["mu"])
+    cut(data).to_netcdf(tmp_path / "c.nc")
+    with pytest.raises(hystrip.InputError, match=says):
+        hystrip.load(tmp_path / "c.nc")
+
+
+def test_points_of_a_result_may_be_cut_out_levels_not(tmp_path):
+    result = solve(levels=LEVELS, pressure=[[5e6], [6e6]], velocity=[1e-3, 5e-3, 7e-3])
+    data, path = result.to_dataset(), tmp_path / "r.nc"
+    data.isel(velocity=[2, 0]).transpose("velocity", "pressure", "level").to_netcdf(path)
+    part = hystrip.load(path, hystrip.Result)
+    assert bits(part.mu) == bits(result.mu[:, [2, 0]].T) and bits(part.tau_by_level) == bits(
+        result.tau_by_level[:, :, [2, 0]].swapaxes(1, 2)
+    )
+    for cut in (data.isel(level=[0]), data.drop_vars("penetration")):
+        cut.to_netcdf(path)
+        with pytest.raises(hystrip.InputError, match="with all that is in it"):
+            hystrip.load(path)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
 def test_a_disk_that_is_full_brings_nothing_down(tmp_path):
     code = (

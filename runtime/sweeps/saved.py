@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..dataset import check_levels_of
 from ..errors import InputError
 from ..scene.load import parse_toml
 from ..scene.validate import validated
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 def sweep_of(data: Dataset, path: Path, solver: Solver | None) -> Sweep:
     """The sweep of a dataset that stood in ``path``; no batch of it was solved now.
 
-    Raises InputError where it was solved with a solver of one's own that is not given.
+    Raises InputError where it was solved with a solver of one's own that is not given, ValueError for a part of a sweep.
     """
     about = json.loads(data.attrs["sweep"])
     values = validated(parse_toml(data.attrs["scene"]))
@@ -34,7 +35,12 @@ def sweep_of(data: Dataset, path: Path, solver: Solver | None) -> Sweep:
             raise InputError("solver", None, how)
         values["material"]["solver"] = str(solver.folder)
     plan = plan_of(values, about["name"], data.attrs["scene"], about["values"], about["combine"], about["batch"])
-    swept = {axis.name for axis in plan.axes}
+    swept = {axis.name: axis.values for axis in plan.axes}
+    check_levels_of(data, plan.levels)
+    for name, each in swept.items():
+        if not np.array_equal(data[name], each):
+            raise ValueError(f"it has not all values of {name} that were swept, in their order")
+    data = data.transpose("level", *(swept if plan.combine == "grid" else ("point",)))
     failed = [str(each) for each in data["failed"].values.ravel()]
     found = {}
     for each in variables(plan.levels):
