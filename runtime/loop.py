@@ -100,7 +100,7 @@ def loading_loop(
     usual = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * above), 1.5 * level.h) if level.h > 0 else above or 1e-9
     top = usual if D_max is None else number("D_max", D_max, "m")
     if top <= -above:
-        raise InputError("D_max", D_max, f"more than {-above:g} m, below which nothing touches")
+        raise InputError("D_max", D_max, f"more than {0.0 - above:g} m, below which nothing touches")
     low, sticks = -above - 0.05 * (level.h or max(top, usual)), bool(adhesion.p_0 > 0)
     near = min(top, usual)
     rest = np.linspace(near, max(top, usual), _FIRST)

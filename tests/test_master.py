@@ -126,6 +126,8 @@ def test_moduli_that_do_not_change_with_frequency_are_refused():
     flat = [DynamicModulus([1.0, 10.0, 100.0], np.full(3, 1e6), np.full(3, 1e5), temperature=T) for T in (290, 300)]
     with pytest.raises(hystrip.InputError, match="change with frequency determines the shift"):
         master_curve(flat)
+    with pytest.raises(hystrip.InputError, match="or their frequencies too few"):
+        master_curve(isotherms(WILLIAMS, (10, 20), frequency=np.array([0.1, 3.0, 100.0])))
 
 
 def test_two_frequencies_determine_shifts_of_near_temperatures():

@@ -417,6 +417,11 @@ def test_what_has_no_loop(changed, field):
     assert refused.value.field == field
 
 
+def test_nothing_touches_without_adhesion_below_zero():
+    with pytest.raises(hystrip.InputError, match="more than 0 m, below which nothing touches"):
+        hystrip.loading_loop(MATERIAL, hystrip.Dugdale(gamma=0), SMALL, V=1e-3, D_max=0.0)
+
+
 def test_what_is_no_place_or_level_to_look_at():
     result = hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=3e3, velocity=1e-3, rtol=1e-2)
     solved = hystrip.solve_level(MATERIAL, ADHESION, SMALL, V=1e-3, D=1e-7, rtol=1e-2)

@@ -220,8 +220,9 @@ def test_pictures(grid, tmp_path):
     strip = hystrip.solve_strip(MATERIAL, ADHESION, l=500e-9, A=5e-8, D=2e-8, V=5e-3)
     save(strip.plot(), tmp_path / "strip.png")
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("velocity.svg", "pressure.png", "law.png", "strip.png"))
-    with pytest.raises(hystrip.InputError, match="one is no curve"):
-        solved(5e6, 1e-3).plot()
+    for pressure, points in ((5e6, "1 point"), ([5e6, 5e6], "2 points")):
+        with pytest.raises(hystrip.InputError, match=f"got '{points}'; .* one is no curve"):
+            solved(pressure, 1e-3).plot()
 
 
 def test_a_summary_tells_pull_off_where_a_level_is_unloaded_to_it():

@@ -54,7 +54,8 @@ def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Super
         allowed = f"neighbours that overlap after shifting, by {_LEAST_SHARED:g} decades; here {lack}: measure between them, or "
         raise InputError("isotherms", between, f"{allowed}over a wider band, or leave out what lies beyond")
     if loose is not None:
-        raise InputError("isotherms", degrees(loose), "moduli whose change with frequency determines the shift")
+        allowed = "moduli whose change with frequency determines the shift: here they are flat, or their frequencies too few"
+        raise InputError("isotherms", degrees(loose), allowed)
     return found
 
 

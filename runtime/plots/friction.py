@@ -70,7 +70,8 @@ def friction(result: Result, kind: str | None = None) -> Figure:
     """
     velocities, loads = np.unique(result.velocity).size, np.unique(getattr(result, result.load)).size
     if velocities * loads < 2:
-        raise InputError("result", f"{np.size(result.mu)} point", "a result of two different points or more: one is no curve")
+        points = f"{np.size(result.mu)} point" + "s" * (np.size(result.mu) != 1)
+        raise InputError("result", points, "a result of two different points or more: one is no curve")
     if velocities > 1:
         one_load = np.size(result.mu) == np.shape(result.mu)[_axis_of_velocity(result)]
         kinds = [kind] if kind else ["mu", "contact"] if one_load else ["mu"]
