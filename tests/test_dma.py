@@ -167,6 +167,7 @@ EXPORTS = {
     "remarks above, exotic units": "Instrument: X\nDate, today\n\nE″ [N/mm^2],Temp. [°C],E′ [bar],f / mHz\n"
     "0.25,20,15,500\n0.75,20.3,30,5000\n",
     "units in a row, another column": "f;E';E\";note\nHz;Pa;Pa;\n0,5;1500000;250000;a;\n5;3e6;7,5e5;b\n;3e6;7,5e5;b\n",
+    "units after underscores, one that is none": "f_Hz,E_stor_MPa,E''_kPa,T_C,T_ref\n0.5,1.5,250,20,a\n5,3,750,20,b\n",
     "absolute value and tan delta": "f [Hz],|E*| [MPa],tan δ\n"
     f"0.5,{1.5 * np.hypot(1, 1 / 6)},{1 / 6}\n5,{3 * np.hypot(1, 0.25)},0.25\n",
 }

@@ -15,6 +15,7 @@ _SLASHED = re.compile(r"^(?P<name>.+?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)$")
 _LOGARITHM = re.compile(r"\W*(log|lg|ln)(10|_|\W)", re.IGNORECASE)
 _COMPLIANCE = re.compile(r"[JD]\W*'|.*(compliance|nachgiebigkeit)", re.IGNORECASE)
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
+_UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>[^\s_]+)$")
 
 #: names as they stand after ``_plain``: without spaces, signs and case, primes as ' and "
 _NAMES = {
@@ -47,6 +48,8 @@ _PRIMES = str.maketrans(dict.fromkeys("″“”", '"') | dict.fromkeys("′’�
 _KELVIN = ("K", "kelvin", "degK")
 _CELSIUS = ("C", "°C", "ºC", "degC", "celsius", "℃")
 _FAHRENHEIT = ("F", "°F", "ºF", "degF", "fahrenheit")
+#: units that may follow an underscore, which stands between the words of a name as well
+_AFTER_UNDERSCORE = {*_PA, *_HZ, *_ANGLES, *_KELVIN, *_CELSIUS, *_FAHRENHEIT}
 
 
 @dataclass(frozen=True)
@@ -174,11 +177,11 @@ def _converted(unit: str, to: str, place: str, wanted: str) -> float:
 
 
 def _split(written: str) -> tuple[str, str]:
-    """Name and unit of a heading such as ``E' [MPa]``, ``f / Hz``, ``omega in rad/s``, ``Frequency, Hz``."""
+    """Name and unit of a heading such as ``E' [MPa]``, ``f / Hz``, ``omega in rad/s``, ``Frequency, Hz``, ``f_Hz``."""
     plain = _single_spaced(written)
-    for form in (_BRACKETED, _SLASHED, _COMMA):
+    for form in (_BRACKETED, _SLASHED, _COMMA, _UNDERSCORED):
         match = form.match(plain)
-        if match and match["name"]:
+        if match and match["name"] and (form is not _UNDERSCORED or match["unit"] in _AFTER_UNDERSCORE):
             return match["name"], match["unit"].strip()
     return written, ""
 
