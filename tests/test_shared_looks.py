@@ -72,3 +72,8 @@ def test_a_way_grows_from_where_it_begins():
 
 def test_a_way_of_no_length_has_no_parts():
     assert growing([0.0, 0.0], 0.0, 1.0) == []
+
+
+def test_parts_are_no_shorter_than_a_rounding_of_where_they_are():
+    parts = growing([1e-3], 1e-3 + 1e-17, 1e-30)
+    assert parts[-1][1] == 1e-3 + 1e-17 and all(low < high for low, high in parts)

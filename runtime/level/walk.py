@@ -37,8 +37,8 @@ def growing(arrive: Iterable[float], last: float, width: float) -> list[tuple[fl
     parts grow from ``width``, and again where others arrive, whom only short ones pass by."""
     sign = 1 if min(arrive) < last else -1
     starts, end, parts = sorted(sign * D for D in arrive), sign * last, []
-    at, first = starts[0], max(width, EPS * (end - starts[0]))
-    step = first
+    at = starts[0]
+    first = step = max(width, 2 * EPS * max(abs(at), abs(end)))
     while at < end:
         to = at + step if end - at > 2 * step else end
         others = starts[bisect_right(starts, at) : bisect_left(starts, to)]
