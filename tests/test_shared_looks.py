@@ -49,6 +49,16 @@ def test_penetrations_that_are_near_share_a_look_below(branch):
     assert together.strips < 0.8 * sum(one.strips for one in alone) * 40
 
 
+def test_of_a_part_that_another_pressure_has_looked_at_a_pressure_knows_better_what_may_carry_it():
+    """Just above the least of a dip, in a part 9 nm wide in which the dip is 26 pm from a break: it was met below the jump, its
+    friction 0.14 % off, where a pressure at the other end of the part was asked for as well."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.5181648423385812e-07)
+    adhesion, level = hystrip.Dugdale(gamma=8.355334495300001e-10, delta_0=8.34457e-11), hystrip.Level(1e-5, 6.1254e-7)
+    found = hystrip.solve(material, adhesion, [level], pressure=[144.16422070345027, 153.12], velocity=4.09977e-5, rtol=1e-6)
+    # the first by itself, at 1e-10
+    assert found.converged.all() and abs(found.tau[0] - 2.81559000409) <= found.tau_error[0]
+
+
 penetrations = st.floats(-1e3, 1e3).filter(lambda D: D == 0 or abs(D) > 1e-6)
 
 

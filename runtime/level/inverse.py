@@ -136,17 +136,15 @@ def _walks(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float, fl
     """A walk for each pressure; and what the curve may err by at last, Pa (n,). Those of one velocity go along the same parts,
     known as finely as any asks for."""
     unloading, bottom = columns.branch == "unloading", first_contact(columns)
-    tops, size = np.maximum(cut_penetration(columns, p, full), bottom), np.abs(p) + floor
-    finest, walks = np.empty(p.size), {}
+    tops, size, finest, walks = np.maximum(cut_penetration(columns, p, full), bottom), np.abs(p) + floor, np.empty(p.size), {}
     for V in np.unique(columns.V):
         same = np.flatnonzero(columns.V == V)
         finest[same] = _CLOSEST * size[same].min()
         rough = np.maximum(_ROUGH * (np.abs(p[same]) + columns.scales[0]), rtol * size[same]).min()
-        arrive, last = (tops[same], bottom) if unloading else ([bottom], tops[same].max())
-        parts = growing(arrive, last, _NEXT * columns.level.h)[::-1]
+        parts = growing(*((tops[same], bottom) if unloading else ([bottom], tops[same].max())), _NEXT * columns.level.h)[::-1]
         for i, least in zip(same.tolist(), _CLOSEST * size[same], strict=True):
             way = [part for part in parts if part[0] < tops[i]]
-            walks[i] = Walk(i, unloading, p[i], rough, least, way, least / columns.material.K)
+            walks[i] = Walk(i, unloading, p[i], rough, least, way, least / columns.material.K, top=tops[i])
     return [walks[i] for i in range(p.size)], finest
 
 
@@ -160,7 +158,8 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray, known:
             walk.waiting.pop()
             walk.goal, walk.now = walk.rough, intervals
         asked = [(columns.V[walk.column], walk.goal, walk.now.tobytes()) for walk in going]
-        found = _once(known, asked, going, partial(_pieces, columns, finest))
+        pieces = _once(known, asked, going, partial(_pieces, columns, finest))
+        found = [[piece for piece in each if piece.low < walk.top] for each, walk in zip(pieces, going, strict=True)]
         rows = branches_of([[*walk.known, *more] for walk, more in zip(going, found, strict=True)], columns.branch == "unloading")
         for walk, more, row in zip(going, found, rows, strict=True):
             walk.go_on(more, row, bool(columns.spent[walk.column] > CURVE_LIMIT))

@@ -50,11 +50,11 @@ def growing(arrive: Iterable[float], last: float, width: float) -> list[tuple[fl
 
 @dataclass
 class Walk:
-    """To the pressure ``p``, Pa. What its curve may err by: at the first look at a part ``rough``, at last ``finest``, in what is
-    asked for now ``goal``. ``waiting``: what is left, the next part last; what is as ``narrow``, m, is left out; ``now``: the
-    intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``: pieces of all others, and the
-    goal each was asked with. ``arrived``: it need not go on. ``undecided``: why, if it is,
-    and how far quantities are apart where it may be (``other``, (q,))."""
+    """To the pressure ``p``, Pa; from the penetration ``top`` on the curve carries more. What it may err by: at the first look at
+    a part ``rough``, at last ``finest``, in what is asked for now ``goal``. ``waiting``: what is left, the next part last; what
+    is as ``narrow``, m, is left out; ``now``: the intervals it goes along, low and high ends and which of them are inner ones,
+    (4, k); ``known``: pieces of all others, and the goal each was asked with. ``arrived``: it need not go on. ``undecided``: why,
+    if it is, and how far quantities are apart where it may be (``other``, (q,))."""
 
     column: int
     unloading: bool
@@ -70,6 +70,7 @@ class Walk:
     arrived: bool = False
     undecided: str = ""
     other: np.ndarray | float = 0.0
+    top: float = np.inf
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
@@ -154,13 +155,14 @@ class Walk:
         return bool(again)
 
     def _ask_again(self, again: list[Piece], goal: float, breaks: np.ndarray = np.empty(0)) -> None:
-        """Go along the pieces asked for ``again`` with a new ``goal``, divided at the ``breaks`` (m, (n,))."""
+        """Go along the pieces asked for ``again``, up to the ``top``, with a new ``goal``, divided at ``breaks`` (m, (n,))."""
         self.goal, ends = goal, []
         for piece in again:
             del self.known[piece]
-            cuts = np.unique(np.clip([piece.low, piece.high, *breaks], piece.low, piece.high))
+            cuts = np.unique(np.clip([piece.low, piece.high, *breaks], piece.low, min(piece.high, self.top)))
             for low, high in pairwise(cuts):
-                ends.append((low, high, piece.inner_low and low == piece.low, piece.inner_high and high == piece.high))
+                smooth = (piece.inner_high and high == piece.high) or high == self.top
+                ends.append((low, high, piece.inner_low and low == piece.low, smooth))
         self.now = np.array(ends).T
 
     def _comes_to(self, piece: Piece) -> bool:
