@@ -183,6 +183,27 @@ MUTANTS = (
         "test_shared_looks.py",
     ),
     Mutant(
+        "velocities share where their curves have breaks",
+        "level/inverse.py",
+        "[(columns.V[walk.column], *walk.waiting[-1])",
+        "[(0.0, *walk.waiting[-1])",
+        "test_shared_looks.py",
+    ),
+    Mutant(
+        "velocities share pieces of their curves",
+        "level/inverse.py",
+        "(columns.V[walk.column], walk.goal,",
+        "(0.0, walk.goal,",
+        "test_shared_looks.py",
+    ),
+    Mutant(
+        "velocities share looks below",
+        "level/averages.py",
+        "looks |= {(V, (k",
+        "looks |= {(0.0, (k",
+        "test_shared_looks.py",
+    ),
+    Mutant(
         "a coarse curve tells the side of a jump",
         "level/inverse.py",
         "in zip(same.tolist(), _CLOSEST * size[same], strict=True)",
