@@ -12,24 +12,27 @@ from hystrip.level.walk import growing
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 SURFACE = MATERIAL, hystrip.Dugdale(p_0=2500.0, delta_0=1e-8), [hystrip.Level(5e-7, 1e-7)]
-PRESSURES = np.geomspace(1, 2e4, 48)
+PRESSURES = np.geomspace(1, 1e4, 4)
 
 
-@pytest.mark.parametrize(("branch", "share"), [("unloading", 0.7), ("loading", 0.4)])
-def test_pressures_of_one_velocity_share_what_is_looked_at(branch, share):
+@pytest.mark.parametrize(
+    ("branch", "p_0", "level", "V", "most"),
+    [("unloading", 500.0, hystrip.Level(5e-6, 1e-6), 7e-3, 1e3), ("loading", 2500.0, hystrip.Level(5e-7, 1e-7), 7e-4, 2e4)],
+)
+def test_pressures_of_one_velocity_share_what_is_looked_at(branch, p_0, level, V, most):
     def solve(p):
-        return hystrip.solve(*SURFACE, pressure=p, velocity=7e-4, branch=branch, rtol=1e-6)
+        adhesion = hystrip.Dugdale(p_0=p_0, delta_0=1e-8)
+        return hystrip.solve(MATERIAL, adhesion, [level], pressure=p, velocity=V, branch=branch, rtol=1e-6)
 
-    some = PRESSURES[::12]
-    together, alone = solve(PRESSURES), [solve(p) for p in some]
+    every = np.geomspace(1, most, 48)
+    together, alone = solve(every), [solve(p) for p in every[::12]]
     known, error = (np.array([getattr(one, name) for one in alone]).squeeze() for name in ("tau", "tau_error"))
     assert together.converged.all()
     assert (np.abs(together.tau.squeeze()[::12] - known) <= 0.1 * error + 1e-15 * known).all()
-    strips = sum(one.counts["strips_solved"] for one in alone) * PRESSURES.size / some.size
-    assert together.counts["strips_solved"] < share * strips
+    assert together.counts["strips_solved"] < 0.4 * 12 * sum(one.counts["strips_solved"] for one in alone)
 
 
-@pytest.mark.parametrize("given_by", [{"pressure": PRESSURES[::12]}, {"D": np.linspace(-1e-8, 9e-8, 3)}], ids=["pressures", "D"])
+@pytest.mark.parametrize("given_by", [{"pressure": PRESSURES}, {"D": np.linspace(-1e-8, 9e-8, 3)}], ids=["pressures", "D"])
 def test_velocities_share_nothing(given_by):
     """Not even the work: what is taken from another velocity may be put right by refinement, and does not show in friction."""
     V = np.array([1e-4, 7e-4, 1e-2])
@@ -63,7 +66,7 @@ def test_of_a_part_that_another_pressure_has_looked_at_a_pressure_knows_better_w
     adhesion, level = hystrip.Dugdale(gamma=8.355334495300001e-10, delta_0=8.34457e-11), hystrip.Level(1e-5, 6.1254e-7)
     found = hystrip.solve(material, adhesion, [level], pressure=[144.16422070345027, 153.12], velocity=4.09977e-5, rtol=1e-6)
     # the first by itself, at 1e-10
-    assert found.converged.all() and abs(found.tau[0] - 2.81559000409) <= found.tau_error[0]
+    assert found.converged.all() and abs(found.tau[0] - 2.81559000409376) <= found.tau_error[0]
 
 
 penetrations = st.floats(-1e3, 1e3).filter(lambda D: D == 0 or abs(D) > 1e-6)
