@@ -173,10 +173,9 @@ def _once(known: dict, keys: list[tuple], walks: list[Walk], make: Callable[[lis
 
 
 def _divided(columns: LevelBatch, walks: list[Walk]) -> list[np.ndarray]:
-    """The next part of the way of each walk between its breaks, as ``Walk.now``."""
+    """The next part of each walk's way between its breaks, as ``Walk.now``; at the top the curve is but cut, or saturates."""
     bottom, D = first_contact(columns), np.linspace(*np.array([walk.waiting[-1] for walk in walks]).T, _LOOKS, axis=1)
     row, low, high, _ = between_breaks(columns, np.array([walk.column for walk in walks]), D)
-    # at the top the curve is but cut, or saturates
     ends = np.array((low, high, (low == D[row, 0]) & (low > bottom), high == D[row, -1]))
     return [ends[:, row == k] for k in range(len(walks))]
 

@@ -100,7 +100,8 @@ class Walk:
                     self.undecided = NO_CURVE if exhausted else AT_JUMP
             k = max(k, 0)
         if 0 <= k < 2 * len(row) - 1:
-            self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
+            most = min(self.top, row[-1].piece.high) if self.p > row[-1].p_high else -np.inf
+            self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p, most)
         self.arrived = self.root is not None or clings
 
     def _place(self, row: list[Branch]) -> tuple[int, int, int]:
@@ -159,10 +160,9 @@ class Walk:
         self.goal, ends = goal, []
         for piece in again:
             del self.known[piece]
-            cuts = np.unique(np.clip([piece.low, piece.high, *breaks], piece.low, min(piece.high, self.top)))
-            for low, high in pairwise(cuts):
-                smooth = (piece.inner_high and high == piece.high) or high == self.top
-                ends.append((low, high, piece.inner_low and low == piece.low, smooth))
+            cut, inner = min(piece.high, self.top), piece.inner_high or self.top < piece.high
+            for low, high in pairwise(np.unique(np.clip([piece.low, cut, *breaks], piece.low, cut))):
+                ends.append((low, high, piece.inner_low and low == piece.low, inner and high == cut))
         self.now = np.array(ends).T
 
     def _comes_to(self, piece: Piece) -> bool:
@@ -172,8 +172,8 @@ class Walk:
         return bool(met.min() - doubt <= self.p <= met.max() + doubt)
 
 
-def _in_branch(part: Branch, p: float) -> Root:
-    """Where a branch, which may be narrower than the rounding of D, carries the pressure."""
+def _in_branch(part: Branch, p: float, most: float) -> Root:
+    """Where a branch, which may be narrower than the rounding of D, carries the pressure; it may go on up to ``most``."""
     t = float(ParameterAt([part])(np.zeros(1, int), np.array([p]))[0])
     # nearer to a turn it bends more, but for rounding
     for step in (np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS), _STEPS[1]):
@@ -183,7 +183,7 @@ def _in_branch(part: Branch, p: float) -> Root:
             break
     D = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high]))
     step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)
-    return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(D[4]))
+    return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(max(D[4], most)))
 
 
 def _in_jump(part: Branch, following: Branch, unloading: bool) -> Root:
