@@ -8,6 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import hystrip
+from hystrip.level.inverse import _walks
+from hystrip.level.strips import LevelBatch
 from hystrip.level.walk import growing
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -67,6 +69,14 @@ def test_of_a_part_that_another_pressure_has_looked_at_a_pressure_knows_better_w
     found = hystrip.solve(material, adhesion, [level], pressure=[144.16422070345027, 153.12], velocity=4.09977e-5, rtol=1e-6)
     # the first by itself, at 1e-10
     assert found.converged.all() and abs(found.tau[0] - 2.81559000409376) <= found.tau_error[0]
+
+
+def test_what_is_shared_is_known_as_well_as_the_least_pressure_needs():
+    V = np.array([7e-4, 7e-4, 1e-3])
+    columns = LevelBatch(MATERIAL, SURFACE[1], SURFACE[2][0], "continuous", "unloading", V, np.zeros(3))
+    walks, finest = _walks(columns, np.array([1.0, 1e6, 1e6]), np.full(3, np.inf), 1e-3, 1.0)
+    assert walks[0].rough == walks[1].rough < walks[2].rough
+    assert walks[0].finest == finest[0] == finest[1] < finest[2] == walks[1].finest
 
 
 penetrations = st.floats(-1e3, 1e3).filter(lambda D: D == 0 or abs(D) > 1e-6)

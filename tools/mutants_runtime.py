@@ -204,6 +204,20 @@ MUTANTS = (
         "test_shared_looks.py",
     ),
     Mutant(
+        "a look is as rough as the greatest pressure allows",
+        "level/inverse.py",
+        "rtol * size[same]).min()",
+        "rtol * size[same]).max()",
+        "test_shared_looks.py",
+    ),
+    Mutant(
+        "what is hidden is told as the greatest pressure allows",
+        "level/inverse.py",
+        "_CLOSEST * size[same].min()",
+        "_CLOSEST * size[same].max()",
+        "test_shared_looks.py",
+    ),
+    Mutant(
         "a coarse curve tells the side of a jump",
         "level/inverse.py",
         "in zip(same.tolist(), _CLOSEST * size[same], strict=True)",

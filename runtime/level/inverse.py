@@ -141,7 +141,8 @@ def _walks(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float, fl
         same = np.flatnonzero(columns.V == V)
         finest[same] = _CLOSEST * size[same].min()
         rough = np.maximum(_ROUGH * (np.abs(p[same]) + columns.scales[0]), rtol * size[same]).min()
-        parts = growing(*((tops[same], bottom) if unloading else ([bottom], tops[same].max())), _NEXT * columns.level.h)[::-1]
+        arrive, last = (tops[same], bottom) if unloading else ([bottom], tops[same].max())
+        parts = growing(arrive, last, _NEXT * columns.level.h)[::-1]
         for i, least in zip(same.tolist(), _CLOSEST * size[same], strict=True):
             way = [part for part in parts if part[0] < tops[i]]
             walks[i] = Walk(i, unloading, p[i], rough, least, way, least / columns.material.K, top=tops[i])
