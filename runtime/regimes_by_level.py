@@ -97,7 +97,7 @@ def _carrying(result: Any, i: int, V: float, pressure: np.ndarray, share: np.nda
     pressure, share = pressure[order], share[order]
     D, unloading = _depths(result, i, V, pressure[-1]), result.branch == "unloading"
     p_mean = _Strips(result, i, V, D, _FEWER).p_mean
-    for _ in range(_ROUNDS):
+    for halvings in range(_ROUNDS + 1):
         cell, start = _cells(p_mean, pressure, unloading)
         off, step = pressure < p_mean[start], np.abs(np.diff(p_mean))
         between = np.bincount(cell[~off], share[~off], step.size)
@@ -105,12 +105,10 @@ def _carrying(result: Any, i: int, V: float, pressure: np.ndarray, share: np.nda
         for k in range(max(start - 1, 0), min(start + 1, step.size)):
             between[k] += share[off & (pressure > p_mean[start] - step[k])].sum()
         wide = np.flatnonzero(between > _BETWEEN)
-        if not wide.size:
+        if not wide.size or halvings == _ROUNDS:
             break
         D = np.insert(D, wide + 1, 0.5 * (D[wide] + D[wide + 1]))
         p_mean = np.insert(p_mean, wide + 1, _Strips(result, i, V, D[wide + 1 + np.arange(wide.size)], _FEWER).p_mean)
-    cell, start = _cells(p_mean, pressure, unloading)
-    off = pressure < p_mean[start]
     carried = np.cumsum(share[~off])
     if not carried.size:
         return np.empty(0), 1.0

@@ -101,8 +101,8 @@ MUTANTS = (
     Mutant(
         "a pressure that is not told from a turn is looked for there",
         "level/inverse.py",
-        "stay = (np.clip(step, low, high) != step) & ",
-        "stay = (np.clip(step, low, high) == np.inf) & ",
+        "stay = (within != step) & ",
+        "stay = (within == np.inf) & ",
         "test_next_to_jumps.py",
     ),
     Mutant(
@@ -234,8 +234,8 @@ MUTANTS = (
     Mutant(
         "a later part of the way hides nothing, however rough",
         "level/walk.py",
-        "if least < most or self._near(row, k, coarser):",
-        "if least < most:",
+        "least < most or bool(self._near(row, k, self._coarser(row)))",
+        "least < most",
         "test_next_to_jumps.py",
     ),
     Mutant(

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from .segment import Segment
 
 #: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
-_NEAR = 0.5 ** np.arange(10, 6, -1)
-_TURNS = np.concatenate(([0.0], _NEAR, np.arange(1, 64) / 64, 1 - _NEAR[::-1], [1.0]))
+_TURNS = np.concatenate(([0.0], 0.5 ** np.arange(10, 6, -1), np.arange(1, 64) / 64, 1 - 0.5 ** np.arange(7, 11), [1.0]))
 
 
 def graded(t):

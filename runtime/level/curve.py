@@ -42,14 +42,13 @@ def trace(
 def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:
     """The intervals between the breaks of the curve of every column, ascending; where its crest lets go, inf if never, (n,)."""
     h = columns.level.h
-    # closer to a threshold rounding may decide it the other way
-    inside = 64 * EPS * (h + np.abs(top) + 2 * columns.stretch + columns.adhesion.delta_0)
     column, low, high, crest = between_breaks(columns, np.arange(columns.size), scan(columns, top))
     # down to there strips cling by adhesion all along when unloading
     start = np.where(np.isfinite(crest), np.fmin(crest, h + straight(columns)[1][OPENS]), first_contact(columns))
     intervals = Intervals.of(column, low, high, rtol, atol).take(low >= start[column])
-    # at the top a curve is but cut, or saturates
-    intervals.inner_high[:] = intervals.high > (top - 2 * inside)[intervals.column]
+    # at the top a curve is but cut, or saturates; closer to a threshold rounding may decide it the other way
+    rounding = 128 * EPS * (h + np.abs(top) + 2 * columns.stretch + columns.adhesion.delta_0)
+    intervals.inner_high[:] = intervals.high > (top - rounding)[intervals.column]
     return intervals, crest
 
 

@@ -48,10 +48,8 @@ def peak_pressure(columns: LevelBatch, strips: SolvedStrips) -> np.ndarray:
 
     Mostly it is the crest's. But adhesion may hold flatter strips that steeper ones have let go of: before these do, the pressure
     is at most that of complete contact, ``K (E + A (1 + R))``, ``E = D - h``: it begins below that field and tends to it."""
-    peak = np.full(strips.p_mean.size, -np.inf)
-    index, contact = strips.touching
-    if index.size:
-        peak[index] = contact.p_peak
+    peak, (index, contact) = np.full(strips.p_mean.size, -np.inf), strips.touching
+    peak[index] = contact.p_peak
     peak = peak.reshape(columns.size, -1)
     level, R = columns.level, foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
     steeper = (columns.D - level.h)[:, None] + level.amplitude(_THETA[:-1]) * (1 + R[:, None])
@@ -105,11 +103,10 @@ def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -
     t, weights = mapped(interior_nodes(_POINTS)), mapped_weights(_POINTS)
     # no contact is pulled at harder than this
     p, share = np.full((strips.p_mean.size, t.size), -columns.adhesion.p_0), np.zeros((strips.p_mean.size, t.size))
-    if index.size:
-        rows, width = np.arange(index.size), contact.a - contact.b
-        phase = contact.b[:, None] + width[:, None] * t
-        p[index] = contact.pressure(np.repeat(rows, t.size), phase.ravel()).reshape(phase.shape)
-        share[index] = width[:, None] * weights / (2 * np.pi * _STRIPS)
+    width = contact.a - contact.b
+    phase = contact.b[:, None] + width[:, None] * t
+    p[index] = contact.pressure(np.repeat(np.arange(index.size), t.size), phase.ravel()).reshape(phase.shape)
+    share[index] = width[:, None] * weights / (2 * np.pi * _STRIPS)
     # crest and valley are none of the equal strips
     p, share = (v.reshape(n, -1, t.size)[:, 1:-1].reshape(n, -1) for v in (p, share))
     order = np.argsort(p, axis=1)

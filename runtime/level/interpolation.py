@@ -54,8 +54,7 @@ class Intervals(Ranges):
     def of(cls, column, low, high, rtol, atol) -> Intervals:
         """Intervals between breaks of the columns ``column`` (m,), as accurate as these, ``rtol`` (n,) and ``atol`` (n, q)."""
         inner_low, inner_high, rough = np.zeros((3, column.size), bool)
-        ceiling = np.full(column.size, np.inf)
-        return cls(low, high, column, inner_low, inner_high, rtol[column], atol[column], ceiling, rough)
+        return cls(low, high, column, inner_low, inner_high, rtol[column], atol[column], np.full(column.size, np.inf), rough)
 
     def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
         """The parts below and above D of each; the curve goes on smoothly there, or not."""

@@ -227,6 +227,7 @@ def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = Fals
     # what is close enough takes another step: the average made there afterwards is next to the pressure; but none to an end, as a
     # turn of the curve is, for a pressure that is not told apart
     step = last[:, 0] + (of(p) - of(last[:, 1])) / rise
-    stay = (np.clip(step, low, high) != step) & (np.abs(p - last[:, 1]) <= errors[:, 0])
-    D[able] = np.where(stay, last[:, 0], np.clip(step, low, high))[able]
+    within = np.clip(step, low, high)
+    stay = (within != step) & (np.abs(p - last[:, 1]) <= errors[:, 0])
+    D[able] = np.where(stay, last[:, 0], within)[able]
     return D, last[:, 1:], errors, slope

@@ -53,9 +53,8 @@ class LowerLevelLaws:
         """Greatest pressure of each strip, then, of saturated contact, the least, over the law's breaks, (m, k), Pa; else NaN."""
         out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
         index, contact = strips.touching
-        if index.size:
-            least = np.where(contact.full, contact.p_entry, np.nan)
-            out[index] = np.concatenate([p[:, None] - self.laws.breaks[group[index]] for p in (contact.p_peak, least)], axis=1)
+        least = np.where(contact.full, contact.p_entry, np.nan)
+        out[index] = np.concatenate([p[:, None] - self.laws.breaks[group[index]] for p in (contact.p_peak, least)], axis=1)
         return out
 
     def kinks(self, strips: SolvedStrips, group: np.ndarray, memory: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -86,8 +85,7 @@ class LowerLevelLaws:
         """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""
         carried = np.zeros((group.size, self.scales.size))
         index, contact = strips.touching
-        if index.size:
-            carried[index] = self._contributions(contact, group[index]) / TWO_PI
+        carried[index] = self._contributions(contact, group[index]) / TWO_PI
         return carried
 
     def _contributions(self, contact: Contact, group) -> np.ndarray:

@@ -83,13 +83,13 @@ def theta_of(columns: LevelBatch, A) -> np.ndarray:
     return 2 * np.arccos(np.sqrt(np.clip(2 * A / h, 0.0, 1.0))) if h > 0 else np.zeros(np.shape(A))
 
 
-def _equations(columns: LevelBatch, changes: Changes, side: int) -> list[tuple[Boundary, np.ndarray]]:
+def _equations(columns: LevelBatch, changes: Changes, side: int) -> Iterator[tuple[Boundary, np.ndarray]]:
     """Boundaries at which orbits on one side of the ``changes`` may give way to those on the other: each with the rows it is for.
 
     Orbits are ordered: pressed deeper a strip is more engaged. So unloading leaves an orbit that is engaged all along only where
     that ends itself, and loading one with a free part; contact that appears in an adhesion zone ends neither."""
     code, other = (changes.codes[:, k] % len(CODE) for k in (side, 1 - side))
-    found, to_engaged, unloading = [], _RANK[other] <= 1, columns.branch == "unloading"
+    to_engaged, unloading = _RANK[other] <= 1, columns.branch == "unloading"
     for boundary in BOUNDARIES:
         rows = code == CODE[boundary.sequence]
         if boundary.event == "peak":
@@ -102,8 +102,7 @@ def _equations(columns: LevelBatch, changes: Changes, side: int) -> list[tuple[B
             rows = rows & (other == CODE["acaf"]) | (code == CODE["acaf"]) & np.isin(other, [CODE["af"], CODE["f"]])
         else:
             rows &= ~to_engaged if unloading else other != CODE["f"]
-        found.append((boundary, np.flatnonzero(rows)))
-    return found
+        yield boundary, np.flatnonzero(rows)
 
 
 def locate_boundaries(

@@ -49,11 +49,12 @@ def saturated_level(
     with no closed form; the threshold given for it is one above which nothing else can be.
     """
     foundation, p_0, of = foundation_of(material.at_wavelength(level.l)), adhesion.p_0, (level.l, level.h, V)
-    (left_at, D_left), tau_sat = foundation.saturation(p_0, *of), foundation.saturation_friction(*of)
+    p_sat, D_sat = foundation.saturation(p_0, *of)
+    lift = p_sat + p_0
     if branch == "loading" and p_0 > 0:
         D_sat = foundation.surely_saturated(p_0, *of)
-        return SaturatedLevel(foundation.K * (D_sat - level.mean_plane), D_sat, left_at + p_0, tau_sat)
-    return SaturatedLevel(left_at, D_left, left_at + p_0, tau_sat)
+        p_sat = foundation.K * (D_sat - level.mean_plane)
+    return SaturatedLevel(p_sat, D_sat, lift, foundation.saturation_friction(*of))
 
 
 def saturated_friction(material: Material, levels: Sequence[Level], V: np.ndarray) -> np.ndarray:

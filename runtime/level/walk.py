@@ -73,8 +73,8 @@ class Walk:
     top: float = np.inf
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
-        """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
-        not ``exhausted`` what comes to the pressure may be asked for again, finer."""
+        """Look for the root in the branches (``row``) of all that is known by now, the pieces ``found`` last included; where the
+        work is not ``exhausted`` what comes to the pressure may be asked for again, finer."""
         self.now = None
         self.known.update(dict.fromkeys(found, self.goal))
         clings = self.p < 0 and not self.unloading
@@ -82,27 +82,26 @@ class Walk:
         if not row or (clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0])):
             return
         k, least, most = self._place(row)
-        # a branch may be hidden in a piece that is known less well than those that have some
-        on = {part.piece: self.known[part.piece] for part in row}
-        coarser = [piece for piece in self.known if piece not in on and self.known[piece] > min(on.values())]
-        if least < most or self._near(row, k, coarser):
-            near = self._near(row, k, self.known)
-            goal = max(_FINER * max((self.known[piece] for piece in near), default=0.0), self.finest)
-            if not exhausted and (again := [piece for piece in near if self.known[piece] > goal]):
-                self._ask_again(again, goal)
+        doubtful = least < most or bool(self._near(row, k, self._coarser(row)))
+        if doubtful and not exhausted and self._ask_finer(row, k):
+            return
+        if least < most:
+            # what is left may carry it
+            if self.waiting and not exhausted and (least < 0 if self.unloading else most == 2 * len(row) - 1):
                 return
-            if least < most:
-                # what is left may carry it
-                if self.waiting and not exhausted and (least < 0 if self.unloading else most == 2 * len(row) - 1):
-                    return
-                self.other = self._apart(row, least, most, exhausted)
-                if self.other.any():
-                    self.undecided = NO_CURVE if exhausted else AT_JUMP
-            k = max(k, 0)
-        if 0 <= k < 2 * len(row) - 1:
-            most = min(self.top, row[-1].piece.high) if self.p > row[-1].p_high else -np.inf
-            self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p, most)
+            self.other = self._apart(row, least, most, exhausted)
+            if self.other.any():
+                self.undecided = NO_CURVE if exhausted else AT_JUMP
+        self.root = self._root(row, max(k, 0) if doubtful else k)
         self.arrived = self.root is not None or clings
+
+    def _root(self, row: list[Branch], k: int) -> Root | None:
+        """The root at place ``k`` of the branches; none below or above all of them."""
+        if not 0 <= k < 2 * len(row) - 1:
+            return None
+        if k % 2:
+            return _in_jump(*row[k // 2 : k // 2 + 2], self.unloading)
+        return _in_branch(row[k // 2], self.p, min(self.top, row[-1].piece.high) if self.p > row[-1].p_high else -np.inf)
 
     def _place(self, row: list[Branch]) -> tuple[int, int, int]:
         """Where the pressure is: below all branches (-1), on number k (2 k) or just above it (2 k + 1); and where it may be at
@@ -139,6 +138,11 @@ class Walk:
         one = not nowhere and most < 2 * len(row) - 1 and all(a.inner_high and b.inner_low for a, b in pairwise(parts))
         return np.maximum(np.ptp(values, axis=0) * (not one), np.abs(values).max(axis=0) * nowhere)
 
+    def _coarser(self, row: list[Branch]) -> list[Piece]:
+        """Pieces without a branch that are known less well than those that have some: one may hide there."""
+        on = {part.piece: self.known[part.piece] for part in row}
+        return [piece for piece in self.known if piece not in on and self.known[piece] > min(on.values())]
+
     def _near(self, row: list[Branch], k: int, among: Iterable[Piece]) -> list[Piece]:
         """Those pieces ``among`` some in which the curve may carry the pressure before it does at place ``k`` of the branches."""
         last, sign = (k // 2, 1) if self.unloading else ((k + 1) // 2, -1)
@@ -153,6 +157,15 @@ class Walk:
         if again:
             self.root, self.undecided, self.other, self.arrived = None, "", 0.0, False
             self._ask_again(again, min(self.known[piece] for piece in again), before)
+        return bool(again)
+
+    def _ask_finer(self, row: list[Branch], k: int) -> bool:
+        """Whether to ask again for what may carry the pressure before place ``k``: if some of it may be known better."""
+        near = self._near(row, k, self.known)
+        goal = max(_FINER * max((self.known[piece] for piece in near), default=0.0), self.finest)
+        again = [piece for piece in near if self.known[piece] > goal]
+        if again:
+            self._ask_again(again, goal)
         return bool(again)
 
     def _ask_again(self, again: list[Piece], goal: float, breaks: np.ndarray = np.empty(0)) -> None:

@@ -161,7 +161,5 @@ class Series:
         sizes = self._size[which]
         for size, table in self._tables.items():
             rows = np.flatnonzero(sizes == size)
-            for start in range(0, rows.size, _CHUNK):
-                some = rows[start : start + _CHUNK]
-                out[:, some] = clenshaw(table, self._rank[which[some]], 2 * t[some] - 1)
+            out[:, rows] = clenshaw(table, self._rank[which[rows]], 2 * t[rows] - 1)
         return out
