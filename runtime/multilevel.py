@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -204,11 +205,8 @@ class _Solve:
         surface = self.surface
         possible = surface.families and surface.strips is None
         if possible and are_families(foundation_of(surface.at_level(0)), surface.adhesion.p_0, surface.levels, V):
-            try:
+            with suppress(SolverError):  # strips that are searched for are found, or named
                 return self._points(V, index, group, True)
-            except SolverError:
-                # strips that are searched for are found, or named
-                pass
         return self._points(V, index, group, False)
 
     def _points(self, V, index, group, families: bool):
@@ -218,11 +216,12 @@ class _Solve:
             size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
             deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
             columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
-        D = load if families else columns.not_just_released(load)
-        if not self.given:
-            self.found.put(index, invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(D))
         if not self.by_pressure:
-            look_below(columns.at(np.arange(index.size), D))
+            columns = replace(columns, D=columns.not_just_released(load))
+            look_below(columns)
+        if not self.given:
+            known = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(columns.D)
+            self.found.put(index, known)
         found = self.found.take(index)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
         self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]

@@ -176,10 +176,11 @@ class _Work:
         goal = self.rtol[:, None] * np.abs(total) + np.pi * self.atol
         mixed, doubled, parts = [], [], []
         for stage in stages:
-            codes = self._outer(stage)[0]
+            codes, *_ = known = self._outer(stage)
             changed = (codes != codes[:, :1]).any(axis=1)
             done = self._accept(stage, goal, ~changed)
-            mixed.append(stage.take(changed & ~done))
+            left = changed & ~done
+            mixed.append((stage.parts.take(left), [v[left] for v in known]))
             stage = stage.take(~changed & ~done)
             middle = self._middle(stage)
             parted = ~np.isnan(middle)
@@ -284,15 +285,14 @@ class _Work:
             out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
         return tuple(out)
 
-    def _divide(self, stages: list[Stage], goal: np.ndarray) -> Panels:
-        """Locate the changes between neighbouring nodes; panels end there."""
-        panels, brackets, spreads, before = Panels.joined([stage.parts for stage in stages]), [], [], 0
-        for stage in stages:
-            *known, theta = self._outer(stage)
-            some, row, _ = Changes.between(before + np.arange(stage.parts.size), theta, known)
+    def _divide(self, mixed: list[tuple[Panels, list[np.ndarray]]], goal: np.ndarray) -> Panels:
+        """Locate the changes between neighbouring nodes of panels, of which ``_outer`` is known; panels end there."""
+        panels, brackets, spreads, before = Panels.joined([parts for parts, _ in mixed]), [], [], 0
+        for parts, (*known, theta) in mixed:
+            some, row, _ = Changes.between(before + np.arange(parts.size), theta, known)
             brackets.append(some)
             spreads.append(np.ptp(known[1], axis=1)[row])
-            before += stage.parts.size
+            before += parts.size
         changes, spread = Changes.joined(brackets), np.concatenate(spreads)
         if not changes.size:
             return panels

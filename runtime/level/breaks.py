@@ -16,19 +16,17 @@ import numpy as np
 from ..inputs.adhesion import Dugdale
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch, Ranges
-from .changes import Changes, locate_changes
+from .changes import ASIDE, Changes, locate_changes
 from .regime_map import OPENS, by_equation, hides_another, straight, theta_of
 from .strips import LevelBatch
 
-#: breaks nearer than this to one another, in heights, are one
+#: breaks nearer than this to one another, in heights, are one; those of laws, relative to the largest
 ONE_BREAK = 1e-12
 #: penetrations of a scan where regimes follow one another
 _SCAN = 32
 #: strips looked at across an island and along its way, and how often at most, ever closer to where it vanishes: the tip of a
 #: wedge between two strips is less than a step along the way beyond where they lose it
 _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
-#: how far to either side of a turn, of the way to where an island is absent, it is looked for
-_ASIDE = 1e-6
 #: width in theta of an island that is close enough to where it ends to find the turn of its curve from
 _CLOSE = 1e-2
 #: what an island may add to the means that is left aside, over their goal
@@ -241,7 +239,7 @@ def _vanish_at_turns(columns: LevelBatch, some: Islands) -> np.ndarray:
     inside = (columns.V[column, None] == turns.velocity) & (share > 0) & (share < 1)
     island, turn = np.nonzero(inside & (theta > some.low[:, None]) & (theta < some.high[:, None]))
     if island.size:
-        beside = D[turn] + _ASIDE * away[island] * np.array([[-1], [1]])
+        beside = D[turn] + ASIDE * away[island] * np.array([[-1], [1]])
         np.add.at(columns.spent, column[island], 2)
         at = columns.at(np.tile(column[island], 2), beside.ravel())
         has = at.codes(np.arange(at.size), np.tile(theta[turn], 2)).reshape(2, -1) == some.code[island]

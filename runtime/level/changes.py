@@ -16,7 +16,7 @@ from ..orbit.batch import Ranges
 #: more than enough to divide any bracket of numbers in double precision to nothing
 _ROUNDS = 100
 #: how far beside a place that an equation tells it is checked, as a share of the bracket
-_ASIDE = 1e-6
+ASIDE = 1e-6
 
 #: (line, x) -> codes (m,), values (m, q), pressures over breaks (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
@@ -75,7 +75,7 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
             break
         told, low, high = ~np.isnan(where), changes.low[:, None], changes.high[:, None]
         divided += 2 * np.count_nonzero(~told)
-        beside = np.clip(where[:, None] + _ASIDE * (high - low) * [-1, 1], low, high)
+        beside = np.clip(where[:, None] + ASIDE * (high - low) * [-1, 1], low, high)
         x = np.where(told[:, None], beside, low + (high - low) * [1 / 3, 2 / 3])
         answers = [v.reshape(*x.shape, *v.shape[1:]) for v in probe(np.repeat(changes.line, 2), x.ravel())]
         ends = changes.codes, changes.values, changes.over_breaks, changes.edges

@@ -14,14 +14,13 @@ from functools import cached_property
 import numpy as np
 
 from .branches import branches_of, graded, meets, parameter
+from .breaks import ONE_BREAK
 from .curve import trace
 from .error_budget import ErrorBudget
 from .saturated import Saturation
 from .segment import SLOTS, Cells, Segment, cells_of, segments_of, slot
 from .strips import LevelBatch, cut_penetration
 
-#: breaks closer than this, relative to the largest, are one
-_SAME = 1e-12
 #: part of what a law may err that merging may take: laws err by less than a tenth of that
 _SHARE = 0.2
 #: slots of the smallest cell: a function that takes smaller ones is not smooth enough for few nodes to see all of it
@@ -78,7 +77,7 @@ class Laws:
             ends = [s.p_low for s in segments if not s.inner_low] + [s.p_high for s in segments if not s.inner_high]
             points = np.unique([e for e in [*ends, pull_off, p_sat] if -np.inf < e <= p_sat])
             # segments that follow one another meet to rounding
-            rows.append(points[np.diff(points, append=np.inf) > _SAME * np.abs(points).max(initial=0.0)])
+            rows.append(points[np.diff(points, append=np.inf) > ONE_BREAK * np.abs(points).max(initial=0.0)])
         return _padded(rows)
 
     @cached_property
@@ -92,7 +91,7 @@ class Laws:
             p, sides = self.breaks[group, j], (np.maximum(j - 1, 0), j)
             # a segment is left at one of its ends, and that tells where the law goes over to the next one
             ends = (self._ends[end, self._between[end][group, at]] for end, at in zip((1, 0), sides, strict=True))
-            known, near = (self.smooth(group, interval, p[None])[1][1, 0] for interval in sides), _SAME * np.abs(p).max()
+            known, near = (self.smooth(group, interval, p[None])[1][1, 0] for interval in sides), ONE_BREAK * np.abs(p).max()
             errors = [np.where(np.abs(end - p) <= near, error, 0.0) for end, error in zip(ends, known, strict=True)]
             left, entered = errors[::-1] if self.unloading else errors
             known_to[group, j] = shift = np.where(left > 0, left, entered)
@@ -135,7 +134,7 @@ class Laws:
         counts = np.array([len(row) for row in self.segments])
         upper = _padded([np.array([s.p_high for s in row]) for row in self.segments])
         breaks = np.concatenate((self.breaks, np.full((counts.size, 1), np.inf)), axis=1)
-        apart = _SAME * np.abs(np.where(np.isfinite(breaks), breaks, 0.0)).max(axis=1, keepdims=True)
+        apart = ONE_BREAK * np.abs(np.where(np.isfinite(breaks), breaks, 0.0)).max(axis=1, keepdims=True)
         ends = [np.count_nonzero(upper[:, None] < p[:, :, None], axis=2) for p in (breaks[:, :-1] + apart, breaks[:, 1:] - apart)]
         start, last = np.cumsum(counts) - counts, np.maximum(counts - 1, 0)
         return [start[:, None] + np.minimum(count, last[:, None]) for count in ends]
@@ -204,7 +203,7 @@ def build_laws(
     segments = [_joined([next(every) for _ in row], *end) for row, *end in ends]
     pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, saturated.p, strict=True)])
     top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
-    top += _SAME * np.where(np.isfinite(top), np.abs(top), 0.0)
+    top += ONE_BREAK * np.where(np.isfinite(top), np.abs(top), 0.0)
     return Laws(segments, pull_off, saturated.p, saturated.means, top, strips, unloading)
 
 
