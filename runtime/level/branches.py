@@ -113,6 +113,10 @@ class Branch:
         """Those of its piece, over its parameter."""
         return self.piece.errors
 
+    def parameter_at(self, p: float) -> float:
+        """t at which it reaches the pressure ``p``, Pa, clipped to the branch."""
+        return float(ParameterAt([self])(np.zeros(1, int), np.array([p]))[0])
+
     def errors_by_pressure(self) -> Errors:
         """The same over pressure."""
         known = self.piece.errors
@@ -126,8 +130,8 @@ def branches_of(curves: Sequence[Sequence[Piece]], unloading: bool) -> list[list
     found = iter(rising([piece for pieces in ordered for piece in pieces]))
     rows = [[part for _ in pieces for part in next(found)] for pieces in ordered]
     if unloading:
-        return [row[::-1] for row in _standing_out(rows, unloading)]
-    return _standing_out([loaded(row[::-1]) for row in rows], unloading)
+        return [_standing_out(row, unloading)[::-1] for row in rows]
+    return [_standing_out(loaded(row[::-1]), unloading) for row in rows]
 
 
 def meets(part: Branch | Segment, overlap: float) -> bool:
@@ -143,30 +147,21 @@ def loaded(parts: list[Branch]) -> list[Branch]:
     return parts[min(range(back + 1), key=lambda k: parts[k].p_low, default=0) :]
 
 
-def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch]]:
-    """Of each row what lies below (unloading) or above all that stands before it; the rows advance together."""
-    kept: list[list[Branch]] = [[] for _ in rows]
-    for k in range(max((len(row) for row in rows), default=0)):
-        cut = []
-        for row, before in zip(rows, kept, strict=True):
-            if k >= len(row):
-                continue
-            part = row[k]
-            bound = (before[-1].p_low if unloading else before[-1].p_high) if before else None
-            if bound is None or (part.p_high <= bound if unloading else part.p_low >= bound):
-                before.append(part)
-            elif part.p_low < bound < part.p_high:
-                cut.append((part, bound, before))
-        if not cut:
-            continue
-        reached = ParameterAt([part for part, *_ in cut])(np.arange(len(cut)), np.array([p for _, p, _ in cut]))
-        for (part, p, before), t in zip(cut, reached.tolist(), strict=True):
+def _standing_out(row: list[Branch], unloading: bool) -> list[Branch]:
+    """Of a row what lies below (unloading) or above all that stands before it."""
+    kept: list[Branch] = []
+    for part in row:
+        bound = (kept[-1].p_low if unloading else kept[-1].p_high) if kept else None
+        if bound is None or (part.p_high <= bound if unloading else part.p_low >= bound):
+            kept.append(part)
+        elif part.p_low < bound < part.p_high:
+            t = part.parameter_at(bound)
             if unloading and t > part.t_low:
-                soft = part.inner_high and meets(part, part.p_high - p)
-                before.append(replace(part, t_high=t, p_high=p, inner_high=soft))
+                smooth = part.inner_high and meets(part, part.p_high - bound)
+                kept.append(replace(part, t_high=t, p_high=bound, inner_high=smooth))
             elif not unloading and t < part.t_high:
-                soft = part.inner_low and meets(part, p - part.p_low)
-                before.append(replace(part, t_low=t, p_low=p, inner_low=soft))
+                smooth = part.inner_low and meets(part, bound - part.p_low)
+                kept.append(replace(part, t_low=t, p_low=bound, inner_low=smooth))
     return kept
 
 

@@ -191,7 +191,6 @@ def build_laws(
     """The law of every column (its ``D`` is not used) along its branch, as far up as it is asked for, to ``rtol |value| + atol``.
 
     ``p_max`` (n,): greatest pressure that will be asked for, inf for the whole law. ``budget``: how much its pressures count."""
-    p_max = np.maximum(p_max, -columns.adhesion.p_0)
     top, unloading = cut_penetration(columns, p_max, saturated.D), columns.branch == "unloading"
     p_max = np.where(top < saturated.D, p_max, np.inf)
     curves, strips = trace(columns, rtol, atol, top, budget)

@@ -187,7 +187,7 @@ class Walk:
 
 def _in_branch(part: Branch, p: float, most: float) -> Root:
     """Where a branch, which may be narrower than the rounding of D, carries the pressure; it may go on up to ``most``."""
-    t = float(ParameterAt([part])(np.zeros(1, int), np.array([p]))[0])
+    t = part.parameter_at(p)
     # nearer to a turn it bends more, but for rounding
     for step in (np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS), _STEPS[1]):
         ends = np.clip([t - step, t + step], part.t_low, part.t_high)
