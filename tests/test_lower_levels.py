@@ -170,8 +170,8 @@ def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(ca
     begins = np.flatnonzero(np.abs(contact.p_entry / WEAK.p_0 + 1) < 1e-10)
     assert begins.size > 3
     law = replace(carry, laws=SimpleNamespace(breaks=np.array([[np.median(contact.p_entry[begins])]])))
-    crossed = law.crossed(law.over_breaks(strips, np.zeros(columns.size, int)))[index[begins]]
-    assert np.unique(crossed).size == 1
+    passed = law.passed(strips, np.zeros(columns.size, int))[0][index[begins]]
+    assert np.unique(passed).size == 1
 
 
 def _stepwise(at, low, high, known_to=(0.0, 0.0)):

@@ -124,7 +124,7 @@ class _Work:
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
-        going, divided, fresh = [], [], []
+        going, fresh = [], []
         answers = sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D))
         for before, stage in zip(stages, answers, strict=True):
             if stage.n == _LOOK:
@@ -134,9 +134,8 @@ class _Work:
                 stage, parts = self._met(stage)
                 fresh.append(parts)
             left, goal, hopeless = self._converged(stage)
-            divided.append((left.take(hopeless), goal[hopeless]))
+            fresh += self._divided(left.take(hopeless), goal[hopeless])
             going.append(left.take(~hopeless))
-        fresh += [part for stage, goal in divided for part in self._divided(stage, goal)]
         if fresh:
             going.append(Stage(Intervals.joined(fresh), self.first))
         return [stage for stage in going if stage.parts.size]

@@ -49,13 +49,16 @@ class LowerLevelLaws:
     rtol: float
     scales: np.ndarray
 
-    def over_breaks(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Greatest pressure of each strip, then, of saturated contact, the least, over the law's breaks, (m, k), Pa; else NaN."""
-        out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
-        index, contact = strips.touching
+    def passed(self, strips: SolvedStrips, group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Codes (m,) of the law's breaks that pressures of each strip pass: how many its greatest exceeds, how many its least.
+        And its greatest pressure, then, of saturated contact, the least, over these breaks, (m, k), Pa, else NaN."""
+        breaks, (index, contact) = self.laws.breaks, strips.touching
+        codes, over_breaks = np.zeros(group.size, int), np.full((group.size, 2 * breaks.shape[1]), np.nan)
         least = np.where(contact.full, contact.p_entry, np.nan)
-        out[index] = np.concatenate([p[:, None] - self.laws.breaks[group[index]] for p in (contact.p_peak, least)], axis=1)
-        return out
+        over = [p[:, None] - breaks[group[index]] for p in (contact.p_peak, least)]
+        exceeded, all_along = (np.count_nonzero(each > 0, axis=1) for each in over)
+        codes[index], over_breaks[index] = 1 + exceeded + (breaks.shape[1] + 1) * all_along, np.concatenate(over, axis=1)
+        return codes, over_breaks
 
     def kinks(self, strips: SolvedStrips, group: np.ndarray, memory: np.ndarray, x: np.ndarray) -> np.ndarray:
         """Where along lines of strips, at places ``x`` (m, n), what they carry all but has a kink, (m,): where pressure right
@@ -73,13 +76,6 @@ class LowerLevelLaws:
         first, last = over[line, at, which], over[line, at + 1, which]
         share = np.divide(first, first - last, out=np.full(len(x), np.nan), where=jumps[line, at, which] > 0)
         return x[line, at] + share * (x[line, at + 1] - x[line, at])
-
-    @staticmethod
-    def crossed(over_breaks: np.ndarray) -> np.ndarray:
-        """Codes (m,) of the law breaks that each strip's pressure passes, from its ``over_breaks``: how many breaks its greatest
-        exceeds, and how many its least."""
-        top, least = (np.count_nonzero(half > 0, axis=1) for half in np.split(over_breaks, 2, axis=1))
-        return np.where(np.isnan(over_breaks[:, 0]), 0, 1 + top + (over_breaks.shape[1] // 2 + 1) * least)
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""

@@ -167,8 +167,8 @@ class LevelBatch:
         codes = strips.solved.code.astype(int)
         if self.carry is None:
             return codes, np.empty((codes.size, 0))
-        over_breaks = self.carry.over_breaks(strips, self.group[column])
-        return codes + len(CODE) * self.carry.crossed(over_breaks), over_breaks
+        passed, over_breaks = self.carry.passed(strips, self.group[column])
+        return codes + len(CODE) * passed, over_breaks
 
     def kinks(self, theta: np.ndarray, x: np.ndarray) -> np.ndarray:
         """Where along lines, with points at ``x`` (m, n), of strips at ``theta`` of these columns (m n,) what they carry all but

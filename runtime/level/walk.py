@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.rounding import EPS, LARGEST
-from .branches import Branch, ParameterAt, Piece, rising
+from .branches import Branch, Piece, rising
 from .strips import AT_JUMP, NO_CURVE
 
 #: how much finer each further look is; by how many errors a turn has to keep away from the pressure, at least; and part of a
@@ -92,16 +92,11 @@ class Walk:
             self.other = self._apart(row, least, most, exhausted)
             if self.other.any():
                 self.undecided = NO_CURVE if exhausted else AT_JUMP
-        self.root = self._root(row, max(k, 0) if doubtful else k)
+        k = max(k, 0) if doubtful else k
+        if 0 <= k < 2 * len(row) - 1:
+            highest = min(self.top, row[-1].piece.high) if self.p > row[-1].p_high else -np.inf
+            self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p, highest)
         self.arrived = self.root is not None or clings
-
-    def _root(self, row: list[Branch], k: int) -> Root | None:
-        """The root at place ``k`` of the branches; none below or above all of them."""
-        if not 0 <= k < 2 * len(row) - 1:
-            return None
-        if k % 2:
-            return _in_jump(*row[k // 2 : k // 2 + 2], self.unloading)
-        return _in_branch(row[k // 2], self.p, min(self.top, row[-1].piece.high) if self.p > row[-1].p_high else -np.inf)
 
     def _place(self, row: list[Branch]) -> tuple[int, int, int]:
         """Where the pressure is: below all branches (-1), on number k (2 k) or just above it (2 k + 1); and where it may be at
@@ -131,9 +126,8 @@ class Walk:
     def _apart(self, row: list[Branch], least: int, most: int, exhausted: bool) -> np.ndarray:
         """How far quantities (q,) differ between the places from ``least`` to ``most`` at which the pressure may be."""
         parts, nowhere = row[max(least, 0) // 2 : (most + 1) // 2 + 1], least < 0 or exhausted
-        doubts = np.array([_DOUBT * part.errors.most[0] for part in parts])[:, None] * [-1, 1]
-        t = ParameterAt(parts)(np.repeat(np.arange(len(parts)), 2), (self.p + doubts).ravel()).reshape(doubts.shape)
-        values = np.concatenate([part.piece.values(at) for part, at in zip(parts, t, strict=True)])
+        ends = [(part, self.p + side * _DOUBT * part.errors.most[0]) for part in parts for side in (-1, 1)]
+        values = np.array([part.piece.values(np.array([part.parameter_at(p)]))[0] for part, p in ends])
         # two branches that overlap by less than they are known to may be one
         one = not nowhere and most < 2 * len(row) - 1 and all(a.inner_high and b.inner_low for a, b in pairwise(parts))
         return np.maximum(np.ptp(values, axis=0) * (not one), np.abs(values).max(axis=0) * nowhere)

@@ -144,7 +144,13 @@ class _Sums:
     def own(self, some: np.ndarray, strips: int, of: tuple = MEANS) -> np.ndarray:
         """Mean pressure, friction (Pa) and contact fraction of the columns ``some`` (m,), by so many strips, (m, 3); or what is
         cut ``of`` the series of these."""
-        values = self._complete(some) if of == MEANS else np.zeros((some.size, 3))
+        values = np.zeros((some.size, 3))
+        if of == MEANS:
+            # strips in complete contact: p = D_j - A
+            rest, pressure = completely(self.d[some], self.s_sat[some])
+            u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
+            friction = 0.25 * self.family.full[self.group[some]] * u_square
+            values = self.units * np.stack((pressure, friction, rest / np.pi), axis=1)
         part = np.flatnonzero(self.partly[some])
         index = some[part]
         u, s, weight = Span(self.d[index], self.s_sat[index]).nodes(strips)
@@ -175,13 +181,6 @@ class _Sums:
                 if here.size:
                     out[here] += sums(some[here], strips, nodes)
         return out
-
-    def _complete(self, some):
-        """What strips in complete contact add to the own means, (m, 3): ``p = D_j - A``."""
-        rest, pressure = completely(self.d[some], self.s_sat[some])
-        u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
-        friction = 0.25 * self.family.full[self.group[some]] * u_square
-        return self.units * np.stack((pressure, friction, rest / np.pi), axis=1)
 
     def _partly(self, some, strips, nodes):
         """Strips in partial contact."""
