@@ -83,12 +83,12 @@ class ContactMap:
         return contact_map(self)
 
 
-def map_of(cell: Cell, points: tuple[int, int] = _POINTS) -> ContactMap:
-    """The contact of a cell at ``points`` (nx, ny). Raises InputError where the level is pulled off."""
+def map_of(cell: Cell) -> ContactMap:
+    """The contact of a cell, at points all over it. Raises InputError where the level is pulled off."""
     if not np.isfinite(cell.D):
         raise InputError("D", cell.D, "a finite penetration: below pull-off there is no contact to look into")
     half = 0.5 * cell.level.l
-    x, y = (np.linspace(-half, half, each) for each in points)
+    x, y = (np.linspace(-half, half, each) for each in _POINTS)
     strips = cell.strip(np.abs(y)[:, None])
     p, gap = strips.fields(x[None, :])
     contact = gap <= 0

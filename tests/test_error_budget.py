@@ -38,29 +38,32 @@ def budget(share, friction=1.0):
 
 
 def test_what_is_met_on_less_of_the_surface_may_err_by_as_much_more():
-    (all_of_it, of_all), (tenth, of_tenth) = (budget(share).met(0, -1.0, 1.0) for share in (1.0, 0.1))
+    (all_of_it, of_all), (tenth, of_tenth) = (budget(share).share_between(0, -1.0, 1.0) for share in (1.0, 0.1))
     assert all_of_it == pytest.approx(10 * tenth) and of_tenth == pytest.approx(10 * of_all)
     # two parts of a law may err by as much
     assert all_of_it == 2.0 and of_all == 0.5
 
 
 def test_half_the_pressures_are_met_half_as_often():
-    (whole, _), (half, _) = (budget(0.1).met(0, low, 1.0) for low in (-1.0, 0.0))
+    (whole, _), (half, _) = (budget(0.1).share_between(0, low, 1.0) for low in (-1.0, 0.0))
     assert half == pytest.approx(0.5 * whole)
 
 
 def test_the_most_demanding_point_of_a_group_counts():
     both = ErrorBudget(np.array([0, 0, 1]), np.tile([-1.0, 1.0], (3, 1)), np.array([[0, 1e-4], [0, 1.0], [0, 1e-4]]), np.ones(3))
-    (one, of_one), (other, of_other) = (both.met(group, -1.0, 1.0) for group in (0, 1))
+    (one, of_one), (other, of_other) = (both.share_between(group, -1.0, 1.0) for group in (0, 1))
     assert one > 1e3 * other and of_one < 1e-3 * of_other
 
 
 def test_pressures_nobody_meets_are_easiest():
     for low, high in ((2.0, 1.0), (5.0, 6.0)):
-        share, friction = budget(0.5).met(0, low, high)
+        share, friction = budget(0.5).share_between(0, low, high)
         assert share < 1e-5 and friction > 1e5
     further = budget(0.5).further_down(2)
-    assert further.met(0, -1.0, 1.0) == further.met(0, 5.0, 6.0) == (1.0, 0.5) and further.met(0, 2.0, 1.0)[0] < 1e-5
+    assert (
+        further.share_between(0, -1.0, 1.0) == further.share_between(0, 5.0, 6.0) == (1.0, 0.5)
+        and further.share_between(0, 2.0, 1.0)[0] < 1e-5
+    )
 
 
 def _weighed(share, p, friction, ceiling=np.inf):
@@ -123,7 +126,7 @@ def test_a_fraction_that_hardly_counts_does_not_drive_the_work():
 def _friction(monkeypatch=None, V=V, rtol=RTOL):
     if monkeypatch is not None:
         # every pressure asked for everywhere: no law is coarser than the result
-        monkeypatch.setattr(ErrorBudget, "met", lambda *_: (2.0, 0.0))
+        monkeypatch.setattr(ErrorBudget, "share_between", lambda *_: (2.0, 0.0))
     return hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=PRESSURE, velocity=V, rtol=rtol)
 
 
@@ -246,7 +249,7 @@ def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloadi
     walk = Walk(0, unloading, 2.0, 1e-6, 1e-6, [], goal=1e-6)
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
         (row,) = branches_of([[*walk.known, *some]], unloading)
-        walk.go_on(some, row, False)
+        walk.advance(some, row, False)
     assert walk.root.D == pytest.approx(1.0) and walk.root.slope[1] == pytest.approx(2.0)
 
 

@@ -91,7 +91,7 @@ def test_at_a_jump_itself_either_side_may_be_meant(unloading):
     (row,) = branches_of([[piece]], unloading)
     for p, told, why in ((1 - 1e-6, False, ""), (1 - 1e-9, True, AT_JUMP), (1 + 1e-9, True, AT_JUMP), (1 + 1e-6, True, "")):
         walk = _begun(unloading, p, 1e-8)
-        walk.go_on([piece], row, False)
+        walk.advance([piece], row, False)
         assert (walk.root is not None) is told and walk.undecided == why
         assert not told or walk.root.D == pytest.approx(0.0, abs=1e-9)
 
@@ -101,7 +101,7 @@ def test_where_its_way_ends_loading_carries_the_pressure(left):
     """A curve from 1 to 2 Pa, known to 1e-8: to 1e-9 Pa above its end, if that is where its way ends, or else behind it."""
     piece = _line(0.0, 1.0, 1e-8)
     walk = Walk(0, False, 2 + 1e-9, 1e-8, 1e-8, left, goal=1e-8)
-    walk.go_on([piece], branches_of([[piece]], False)[0], False)
+    walk.advance([piece], branches_of([[piece]], False)[0], False)
     assert walk.arrived is not bool(left) and (left or walk.root.D == pytest.approx(1.0)) and not walk.undecided
 
 
@@ -116,7 +116,7 @@ def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
     (row,) = branches_of([pieces], True)
     for goal, again in ((1e-2, True), (1e-8, False)):
         walk = _begun(True, p, goal)
-        walk.go_on(pieces, row, False)
+        walk.advance(pieces, row, False)
         assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided
 
 
@@ -128,7 +128,7 @@ def _line(low, bottom, error):
 def test_a_pressure_that_may_be_on_the_last_of_several_branches_is_asked_for_again():
     """From 1 Pa up and, after a jump, from 3 up: 0.995 Pa, where 0.01 Pa are not known."""
     walk, pieces = _begun(True, 0.995, 1e-2), [_line(0.0, 1.0, 1e-6), _line(1.0, 3.0, 1e-6)]
-    walk.go_on(pieces, branches_of([pieces], True)[0], False)
+    walk.advance(pieces, branches_of([pieces], True)[0], False)
     assert walk.root is None and walk.now[:2].ravel().tolist() == [0.0, 1.0] and walk.goal == pytest.approx(3e-4)
 
 
@@ -139,7 +139,7 @@ def test_across_what_is_left_out_as_narrow_a_curve_goes_on(gap, why):
         Walk(0, True, 2 + 0.5e-9, 1e-8, 1e-8, [], narrow=1e-9, goal=1e-8),
         [_line(0.0, 1.0, 1e-8), _line(1 + gap, 2 + 1e-9, 1e-8)],
     )
-    walk.go_on(pieces, branches_of([pieces], True)[0], False)
+    walk.advance(pieces, branches_of([pieces], True)[0], False)
     assert walk.undecided == why and walk.root.D == pytest.approx(1.0)
 
 
@@ -148,11 +148,11 @@ def test_a_later_part_is_known_as_well_as_its_pressures_ask_for(bottom, again):
     """One part ends 1e-6 Pa above the pressure. The next one, rough at first, counts for nothing unless it errs by that much."""
     walk = Walk(0, True, 1 - 1e-6, 1e-2, 1e-8, [(-1.0, 0.0)])
     walk.goal, first = 1e-8, _line(0.0, 1.0, 1e-9)
-    walk.go_on([first], branches_of([[first]], True)[0], False)
+    walk.advance([first], branches_of([[first]], True)[0], False)
     assert walk.now is None and not walk.arrived
     walk.waiting, walk.goal = [], walk.rough
     behind = _line(-1.0, bottom, 1e-6)
-    walk.go_on([behind], branches_of([[first, behind]], True)[0], False)
+    walk.advance([behind], branches_of([[first, behind]], True)[0], False)
     assert (walk.now is not None) is again and walk.root is None
     assert not again or (walk.now[:2].ravel().tolist() == [-1.0, 0.0] and walk.goal == pytest.approx(3e-4))
 
@@ -171,11 +171,11 @@ def test_what_lies_behind_where_a_pressure_is_met_waits_until_it_is_not(unloadin
     first, behind = (piece(0.75 + 0.75 * at, 2 + 0.0025 * at, 1e-2) for at in (side, -side))
     walk, found = _begun(unloading, 2 + 0.005 * side, 1e-2), [first, behind]
     for one in (first, behind) if not met else (first,):
-        walk.go_on(found, branches_of([[*walk.known, *found]], unloading)[0], False)
+        walk.advance(found, branches_of([[*walk.known, *found]], unloading)[0], False)
         assert walk.root is None and walk.now[:2].ravel().tolist() == [one.low, one.high]
         found = [piece(first.low, 2 + (0.0025 + off) * side, 1e-6)]
     if met:
-        walk.go_on(found, branches_of([[*walk.known, *found]], unloading)[0], False)
+        walk.advance(found, branches_of([[*walk.known, *found]], unloading)[0], False)
         assert walk.now is None and first.low < walk.root.D < first.high
 
 

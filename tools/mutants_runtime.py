@@ -94,8 +94,8 @@ MUTANTS = (
     Mutant(
         "a slope from a step within the errors",
         "level/inverse.py",
-        "told = np.abs(steps[:, :1]) > unknown[:, :1]",
-        "told = np.abs(steps[:, :1]) > errors[:, :1]",
+        "known = np.abs(steps[:, :1]) > unknown[:, :1]",
+        "known = np.abs(steps[:, :1]) > errors[:, :1]",
         "test_error_estimate.py",
     ),
     Mutant(

@@ -183,8 +183,8 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
     parts: list[list[Branch]] = [[] for _ in pieces]
     for k in np.flatnonzero((high > low) & (p_high > p_low))[::-1]:
         piece = pieces[which[k]]
-        soft = piece.inner_low and low[k] == 0.0, piece.inner_high and high[k] == 1.0
-        parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), *soft))
+        smooth = piece.inner_low and low[k] == 0.0, piece.inner_high and high[k] == 1.0
+        parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), *smooth))
     return parts
 
 

@@ -73,15 +73,15 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
         changes, width, where = changes.take(left), width[left], where[left]
         if not changes.size:
             break
-        told, low, high = ~np.isnan(where), changes.low[:, None], changes.high[:, None]
-        divided += 2 * np.count_nonzero(~told)
+        located, low, high = ~np.isnan(where), changes.low[:, None], changes.high[:, None]
+        divided += 2 * np.count_nonzero(~located)
         beside = np.clip(where[:, None] + ASIDE * (high - low) * [-1, 1], low, high)
-        x = np.where(told[:, None], beside, low + (high - low) * [1 / 3, 2 / 3])
+        x = np.where(located[:, None], beside, low + (high - low) * [1 / 3, 2 / 3])
         answers = [v.reshape(*x.shape, *v.shape[1:]) for v in probe(np.repeat(changes.line, 2), x.ravel())]
         ends = changes.codes, changes.values, changes.over_breaks, changes.edges
         known = [np.concatenate((end[:, :1], new, end[:, 1:]), axis=1) for end, new in zip(ends, answers, strict=True)]
         changes, row, part = Changes.between(changes.line, np.concatenate((low, x, high), axis=1), known)
-        exact = told[row] & (part == 1)
+        exact = located[row] & (part == 1)
         at = where[row[exact]]
         found.append(replace(changes.take(exact), low=at, high=at))
         changes, width = changes.take(~exact), width[row[~exact]]

@@ -84,7 +84,7 @@ class ErrorBudget:
         contact = np.maximum(self.share[:, -1:], LEAST_CONTACT)
         return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
 
-    def met(self, group: int, low: float, high: float) -> tuple[float, float]:
+    def share_between(self, group: int, low: float, high: float) -> tuple[float, float]:
         """Share of the surface, times parts of a law, on which pressures between ``low`` and ``high`` (Pa) are met, at the point
         where that is most; and the least friction, Pa, that an error of the law there is relative to."""
         most, least = _FINEST, np.inf

@@ -56,15 +56,15 @@ class Intervals(Ranges):
         inner_low, inner_high, rough = np.zeros((3, column.size), bool)
         return cls(low, high, column, inner_low, inner_high, rtol[column], atol[column], np.full(column.size, np.inf), rough)
 
-    def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
+    def split(self, D: np.ndarray, smooth: bool) -> tuple[Intervals, Intervals]:
         """The parts below and above D of each; the curve goes on smoothly there, or not."""
-        smooth = np.full(self.size, soft)
-        return replace(self, high=D, inner_high=smooth), replace(self, low=D, inner_low=smooth)
+        inner = np.full(self.size, smooth)
+        return replace(self, high=D, inner_high=inner), replace(self, low=D, inner_low=inner)
 
     @property
     def halves(self) -> Intervals:
         """Halves by parameter: next to an end that is like a root far less than half; the curve goes on smoothly between them."""
-        return Intervals.joined(self.split(self.at(np.array([0.5]))[:, 0], soft=True))
+        return Intervals.joined(self.split(self.at(np.array([0.5]))[:, 0], smooth=True))
 
     def at(self, t: np.ndarray) -> np.ndarray:
         """Penetrations at the parameters ``t`` (nodes,) of each, (m, nodes)."""
@@ -87,7 +87,7 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
     atol, floors = intervals.atol.copy(), 1e-3 * columns.scales
     for k, v in enumerate(values):
         rtol, p, least = intervals.rtol[k], v[:, 0], np.abs(v).min(axis=0)
-        met, friction = budget.met(intervals.column[k], p.min(), min(p.max(), intervals.ceiling[k]))
+        share, friction = budget.share_between(intervals.column[k], p.min(), min(p.max(), intervals.ceiling[k]))
         # all that is carried may err by as much of itself as all frictions may; where an interval ends is as well known as
         # pressures are relative to themselves, less of it the narrower it is
         size, rise = (least + floors)[columns.frictions].sum(), np.ptp(v[:, columns.frictions], axis=0).sum()
@@ -96,7 +96,7 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
         # an error of pressure moves frictions that rise steadily with it by as much of their rise
         even = coarse * size / rise if coarse * size < _COARSEST * rise else _COARSEST
         allowed[0] = max(coarse, even) * np.ptp(p)
-        allowed[columns.fractions] += rtol / met
+        allowed[columns.fractions] += rtol / share
         atol[k] = np.maximum(atol[k], allowed)
     return replace(intervals, atol=atol)
 
@@ -210,7 +210,7 @@ class _Work:
             apart, before = _APART * rest.width[0], len(parts)
             for D in np.sort(breaks):
                 if rest.low[0] + apart < D < rest.high[0] - apart:
-                    lower, rest = rest.split(np.full(1, D), soft=False)
+                    lower, rest = rest.split(np.full(1, D), smooth=False)
                     parts.append(lower)
             parts.append(rest if len(parts) > before else rest.halves)
         return parts

@@ -55,10 +55,10 @@ class Penetrations(Batch):
         own, errors = (v[:, : len(QUANTITIES)].copy() for v in (means.values, means.errors))
         steps, miss, unknown = own - self.near, (p - own[:, 0])[:, None], errors + self.near_errors
         # a step of no more than what is not known tells nothing
-        told = np.abs(steps[:, :1]) > unknown[:, :1]
-        secant = np.divide(steps, steps[:, :1], out=self.slope.copy(), where=told)
-        blurred = np.divide(unknown + np.abs(secant) * unknown[:, :1], np.abs(steps[:, :1]), out=np.zeros_like(own), where=told)
-        doubt = np.abs(secant - np.where(told, self.slope, 0.0)) + blurred
+        known = np.abs(steps[:, :1]) > unknown[:, :1]
+        secant = np.divide(steps, steps[:, :1], out=self.slope.copy(), where=known)
+        blur = np.divide(unknown + np.abs(secant) * unknown[:, :1], np.abs(steps[:, :1]), out=np.zeros_like(own), where=known)
+        doubt = np.abs(secant - np.where(known, self.slope, 0.0)) + blur
         own[:, 1:] += (secant * miss)[:, 1:]
         # along a secant fractions leave what they can be, by less than their errors
         own[:, 2:] = np.clip(own[:, 2:], 0.0, 1.0)
@@ -103,7 +103,7 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     h, q, floor, left = columns.level.h, columns.scales.size, 1e-3 * columns.scales[0], np.arange(p.size)
     out, (walks, finest), looks = Penetrations.at(p * np.nan), _walks(columns, p, full, rtol, floor), {}
     while left.size:
-        _go_along(columns, [walks[i] for i in left], finest, looks)
+        _advance(columns, [walks[i] for i in left], finest, looks)
         root = Root(*(np.array(v) for v in zip(*(walks[i].root or Root(np.nan, 0.0, np.zeros(q)) for i in left), strict=True)))
         found, steep = _refine_steep(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
         other = np.array([walks[i].other + np.zeros(q) for i in left])
@@ -149,7 +149,7 @@ def _walks(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float, fl
     return [walks[i] for i in range(p.size)], finest
 
 
-def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray, known: dict) -> None:
+def _advance(columns: LevelBatch, walks: list[Walk], finest: np.ndarray, known: dict) -> None:
     """All walks together, part by part, to where their curves first pass their pressures, at last known to ``finest``, Pa (n,).
     ``known``: what one of them has looked at is so for all of its velocity."""
     while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
@@ -163,7 +163,7 @@ def _go_along(columns: LevelBatch, walks: list[Walk], finest: np.ndarray, known:
         found = [[piece for piece in each if piece.low < walk.top] for each, walk in zip(pieces, going, strict=True)]
         rows = branches_of([[*walk.known, *more] for walk, more in zip(going, found, strict=True)], columns.branch == "unloading")
         for walk, more, row in zip(going, found, rows, strict=True):
-            walk.go_on(more, row, bool(columns.spent[walk.column] > CURVE_LIMIT))
+            walk.advance(more, row, bool(columns.spent[walk.column] > CURVE_LIMIT))
 
 
 def _once(known: dict, keys: list[tuple], walks: list[Walk], make: Callable[[list[Walk]], Iterable]) -> list:

@@ -195,9 +195,9 @@ def build_laws(
     p_max = np.where(top < saturated.D, p_max, np.inf)
     curves, strips = trace(columns, rtol, atol, top, budget)
     kept = branches_of(curves, unloading)
-    least = np.repeat(1e-15 * np.abs(saturated.means), [len(row) for row in kept], axis=0)
-    flat = [b for row in kept for b in row]
-    every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
+    branches = [(branch, 1e-15 * np.abs(means)) for row, means in zip(kept, saturated.means, strict=True) for branch in row]
+    tolerance = np.array([np.maximum(branch.errors.most, least) for branch, least in branches])
+    every = iter(segments_of([branch for branch, _ in branches], tolerance))
     ends = zip(kept, saturated.p, np.where(p_max < np.inf, np.inf, saturated.p), strict=True)
     segments = [_joined([next(every) for _ in row], *end) for row, *end in ends]
     pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, saturated.p, strict=True)])

@@ -36,9 +36,9 @@ def unloading_meets(stage: Stage, D: np.ndarray, bends: float) -> tuple[np.ndarr
         met = np.pad((known + error)[here, ::-1], ((0, 0), (1, 0)), constant_values=np.inf)
         least[here] = np.minimum.accumulate(met.ravel()).reshape(met.shape)[:, ::-1]
     # right beside the upper end nothing is told
-    told = D[:, -1:] - D[:, :-1] > _BESIDE * (D[:, -1:] - D[:, :1])
-    meets, ceiling = (np.minimum(p[:, :-1], p[:, 1:]) - slack < least) | ~told, least[:, -1]
+    resolved = D[:, -1:] - D[:, :-1] > _BESIDE * (D[:, -1:] - D[:, :1])
+    meets, ceiling = (np.minimum(p[:, :-1], p[:, 1:]) - slack < least) | ~resolved, least[:, -1]
     # what goes on from the interval above, and rises as it does, comes to nothing new there
     top = np.logical_and.accumulate(meets[:, ::-1], axis=1)[:, ::-1]
-    lowest = np.where(top & told, (p - DOUBT * np.pad(error, ((0, 0), (1, 1)), "edge"))[:, :-1], np.inf).min(axis=1)
+    lowest = np.where(top & resolved, (p - DOUBT * np.pad(error, ((0, 0), (1, 1)), "edge"))[:, :-1], np.inf).min(axis=1)
     return meets & ~(top & (lowest > ceiling)[:, None]), ceiling

@@ -72,7 +72,7 @@ def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarra
     """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby; and at which of
     these curves orbits end, with any other beyond."""
     state, theta = thresholds(columns)
-    every = [(state, theta, np.zeros(state.size, bool)), *columns.crossings.expected(columns)]
+    every = [(state, theta, np.zeros(state.size, bool)), *columns.crossings.predicted(columns)]
     return tuple(np.concatenate(v) for v in zip(*every, strict=True))
 
 
@@ -218,7 +218,7 @@ class Crossings:
         fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
-    def expected(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def predicted(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Columns and thetas (k,) at which ``columns`` cross what is known of each curve, by Newton from between the two points
         nearest on it, or from the parabola through three where it turns, or pass by a turn; and whether orbits end there."""
         E = columns.D - columns.level.h

@@ -72,7 +72,7 @@ class Walk:
     other: np.ndarray | float = 0.0
     top: float = np.inf
 
-    def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
+    def advance(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches (``row``) of all that is known by now, the pieces ``found`` last included; where the
         work is not ``exhausted`` what comes to the pressure may be asked for again, finer."""
         self.now = None
@@ -83,7 +83,7 @@ class Walk:
             return
         k, least, most = self._place(row)
         doubtful = least < most or bool(self._near(row, k, self._coarser(row)))
-        if doubtful and not exhausted and self._ask_finer(row, k):
+        if doubtful and not exhausted and self._interpolate_finer(row, k):
             return
         if least < most:
             # what is left may carry it
@@ -150,19 +150,19 @@ class Walk:
         again = [one for one in self.known if ((one.low < before) & (before < one.high)).any() and self._comes_to(one)]
         if again:
             self.root, self.undecided, self.other, self.arrived = None, "", 0.0, False
-            self._ask_again(again, min(self.known[piece] for piece in again), before)
+            self._interpolate_again(again, min(self.known[piece] for piece in again), before)
         return bool(again)
 
-    def _ask_finer(self, row: list[Branch], k: int) -> bool:
+    def _interpolate_finer(self, row: list[Branch], k: int) -> bool:
         """Whether to ask again for what may carry the pressure before place ``k``: if some of it may be known better."""
         near = self._near(row, k, self.known)
         goal = max(_FINER * max((self.known[piece] for piece in near), default=0.0), self.finest)
         again = [piece for piece in near if self.known[piece] > goal]
         if again:
-            self._ask_again(again, goal)
+            self._interpolate_again(again, goal)
         return bool(again)
 
-    def _ask_again(self, again: list[Piece], goal: float, breaks: np.ndarray = np.empty(0)) -> None:
+    def _interpolate_again(self, again: list[Piece], goal: float, breaks: np.ndarray = np.empty(0)) -> None:
         """Go along the pieces asked for ``again``, up to the ``top``, with a new ``goal``, divided at ``breaks`` (m, (n,))."""
         self.goal, ends = goal, []
         for piece in again:

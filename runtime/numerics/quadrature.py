@@ -179,8 +179,8 @@ def sum_errors(values: np.ndarray, noise: np.ndarray, layered: np.ndarray) -> np
     """
     n = values.shape[1] + 1
     # nodes first and intervals last: largest ones are had fastest so
-    told = np.concatenate((_second_kind(n), _changes(n))) @ values
-    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (told, values))
+    transformed = np.concatenate((_second_kind(n), _changes(n))) @ values
+    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (transformed, values))
     # what is rounding says nothing of the singularities
     largest = np.abs(values).max(axis=0)
     c = np.maximum(np.abs(c) - 16 * EPS * largest, 0.0)

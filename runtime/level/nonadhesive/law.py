@@ -218,8 +218,8 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         known = fresh if known is None else interleaved(known, fresh)
         total, step = known[:, :, columns.frictions].sum(axis=2), np.diff(known[:, :, 0], axis=1)
         # differences of pressures that rounding or quadrature would make slopes of are none
-        told = step > _STEP * known[:, -1:, 0]
-        slope = np.divide(np.abs(np.diff(total, axis=1)), step, out=np.zeros_like(step), where=told).max(axis=1)
+        resolved = step > _STEP * known[:, -1:, 0]
+        slope = np.divide(np.abs(np.diff(total, axis=1)), step, out=np.zeros_like(step), where=resolved).max(axis=1)
         goal = (rtol * total.min(axis=1) + friction[group[left]])[:, None]
         fitted, miss = _fit(known[:, :, :q], piece[left] == 0, columns.frictions, goal)
         done = (miss <= goal).all(axis=1) | (n == _NODES[-1])
