@@ -198,9 +198,8 @@ def _followed(columns: LevelBatch, whole: Islands) -> np.ndarray:
         drift += np.divide(middle[each, row] - middle[:, 0], at, out=np.zeros_like(at), where=(at > 0) & has[:, 0].any(axis=1))
         low, high = low + moved[each, row] + step * ([-1], [2]) + step * (first[each, row], last[each, row])
         keeps = (row == _ALONG - 1) & (stop == 1)
-        further = np.minimum(row + 2, _ALONG - 1)
-        further = np.where(row == _ALONG - 1, np.minimum(2 * stop - start, 1.0), share[each, further])
-        start, stop = share[each, row], further
+        further = share[each, np.minimum(row + 2, _ALONG - 1)]
+        start, stop = share[each, row], np.where(row == _ALONG - 1, np.minimum(2 * stop - start, 1.0), further)
         out[number] = np.where(keeps, np.nan, present + way * 0.5 * (start + stop))
         done = keeps | (density * (high - low) <= _LEFT)
         done |= np.abs(way * (stop - start)) <= 16 * EPS * np.maximum(np.abs(here.absent), columns.level.h)

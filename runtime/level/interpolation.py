@@ -183,9 +183,8 @@ class _Work:
         jump = ~done & (intervals.width <= _NARROWEST * np.maximum(np.abs(intervals.high), columns.level.h))
         done |= jump
         ended = ~done & (columns.spent[column] > CURVE_LIMIT)
-        if ended.any():
-            columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
-            error[ended], done = np.maximum(error, spread)[ended], done | ended
+        columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
+        error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done & ~jump):
             low, high, *inner = (v[k].item() for v in (intervals.low, intervals.high, intervals.inner_low, intervals.inner_high))

@@ -124,11 +124,10 @@ def _refine_steep(columns: LevelBatch, p: np.ndarray, root: Root, rtol: float, f
         sizes = np.abs(found[1]) + 1e-3 * columns.scales
         now = np.fmax(np.abs(found[3]) * sizes[:, :1] / sizes, 1.0).max(axis=1)
         steep, more = np.minimum(now, rtol / _FINEST), np.flatnonzero(now > _STEEP * steep)
-        if more.size:
-            finer = Root(found[0][more], *(v[more] for v in root[1:]))
-            again = _refine(columns.at(more, np.zeros(more.size)), p[more], finer, rtol / steep[more], floor)
-            for whole, part in zip(found, again, strict=True):
-                whole[more] = part
+        finer = Root(found[0][more], *(v[more] for v in root[1:]))
+        again = _refine(columns.at(more, np.zeros(more.size)), p[more], finer, rtol / steep[more], floor)
+        for whole, part in zip(found, again, strict=True):
+            whole[more] = part
     return found, steep
 
 

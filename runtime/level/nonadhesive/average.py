@@ -176,13 +176,13 @@ class _Sums:
         # so many columns at a time that memory stays bounded
         many = max(1, _CHUNK // (4 * strips * nodes))
         for start in range(0, some.size, many):
-            for chosen, sums in ((self.partly, self._partly), (self.d > 1, self._completely)):
+            for chosen, sums in ((self.partly, self._carried_partly), (self.d > 1, self._carried_completely)):
                 here = start + np.flatnonzero(chosen[some[start : start + many]])
                 if here.size:
                     out[here] += sums(some[here], strips, nodes)
         return out
 
-    def _partly(self, some, strips, nodes):
+    def _carried_partly(self, some, strips, nodes):
         """Strips in partial contact."""
         panel, u, s, weight = Span(self.d[some], self.s_sat[some]).panels(self.ends[some], strips)
         column, u, weight = np.repeat(panel, strips), u.ravel(), weight.ravel()
@@ -195,7 +195,7 @@ class _Sums:
         weight *= (orbits.a - orbits.b) / (2 * np.pi)
         return self._over(parts, law, column, weight, lambda x, row: unit[row] * pressure(x, row), nodes)
 
-    def _completely(self, some, strips, nodes):
+    def _carried_completely(self, some, strips, nodes):
         """What strips in complete contact carry: their pressure is one harmonic of the phase about the mean."""
         d, s_sat, law = self.d[some], self.s_sat[some], self.law[some]
         part = partly(d, s_sat)[:, None]
