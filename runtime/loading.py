@@ -91,7 +91,7 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
         raise
     except Exception as error:  # whatever a folder of code can do wrong
         raise InputError("solver", str(folder), f"a solver that loads ({type(error).__name__}: {error}); {again}") from None
-    for model, module in list(models.items()):
+    for model, module in models.items():
         version = getattr(module, "INTERFACE", None)
         if version != INTERFACE:
             wanted = f"a solver for interface {INTERFACE} of this hystrip; {model} was emitted for {version}: {again}"

@@ -180,15 +180,14 @@ class _Solve:
     def run(self, full, progress) -> Points:
         """Solve them; the points ``full`` (n,) are in saturated contact on every level."""
         self._closed_form(full)
-        if progress:
-            progress(int(full.sum()), self.V.size)
+        progress = progress or (lambda done, points: None)
+        progress(int(full.sum()), self.V.size)
         rest = np.flatnonzero(~full)
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         for start in range(0, velocities.size, _BLOCK):
             chosen = (group >= start) & (group < start + _BLOCK)
             self._block(velocities[start : start + _BLOCK], rest[chosen], group[chosen] - start)
-            if progress:
-                progress(int(full.sum() + np.count_nonzero(group < start + _BLOCK)), self.V.size)
+            progress(int(full.sum() + np.count_nonzero(group < start + _BLOCK)), self.V.size)
         return self.out
 
     def _closed_form(self, full):

@@ -71,9 +71,9 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
     c = straight(columns)[1]
     c[OPENS] = columns.opens if columns.stretch > 0 else np.nan
     valley = h + c.T[column]
-    row, which = np.nonzero((D[:, :1] < valley) & (valley < D[:, -1:]))
-    row = np.concatenate((changes.line, row, np.repeat(np.arange(m), 2)))
-    ends = np.concatenate((changes.high, valley[row[changes.size : -2 * m], which], D[:, [0, -1]].ravel()))
+    inside = (D[:, :1] < valley) & (valley < D[:, -1:])
+    row = np.concatenate((changes.line, np.nonzero(inside)[0], np.repeat(np.arange(m), 2)))
+    ends = np.concatenate((changes.high, valley[inside], D[:, [0, -1]].ravel()))
     order = np.lexsort((ends, row))
     row, ends = row[order], ends[order]
     apart = np.flatnonzero((np.diff(row) == 0) & (np.diff(ends) > ONE_BREAK * h))

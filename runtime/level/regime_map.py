@@ -185,13 +185,11 @@ def by_equation(columns: LevelBatch, changes: Changes, unknown: str) -> tuple[np
         A, E = np.full(ends.shape, 0.5 * h), ends - h
     passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
     parent, which = np.nonzero(passed)
-    several = passed.sum(axis=1)[parent] > 1
-    parent, which = parent[several], which[several]
-    one = np.setdiff1d(np.arange(changes.size), parent)
+    none = np.flatnonzero(~passed.any(axis=1))
     parts = changes.take(parent)
     # of the other breaks nothing is known, so that they are not passed
     parts.over_breaks = np.where((np.arange(passed.shape[1]) != which[:, None])[:, None], np.nan, parts.over_breaks)
-    each, parent = Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
+    each, parent = Changes.joined([changes.take(none), parts]), np.concatenate((none, parent))
     place, found = locate_boundaries(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
     every = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
     parent, place = parent[every], place[every]
