@@ -61,11 +61,6 @@ class Intervals(Ranges):
         inner = np.full(self.size, smooth)
         return replace(self, high=D, inner_high=inner), replace(self, low=D, inner_low=inner)
 
-    @property
-    def halves(self) -> Intervals:
-        """Halves by parameter: next to an end that is like a root far less than half; the curve goes on smoothly between them."""
-        return Intervals.joined(self.split(self.at(np.array([0.5]))[:, 0], smooth=True))
-
     def at(self, t: np.ndarray) -> np.ndarray:
         """Penetrations at the parameters ``t`` (nodes,) of each, (m, nodes)."""
         shares = np.array([share_of(t, low, high) for low in (False, True) for high in (False, True)])
@@ -211,7 +206,9 @@ class _Work:
                 if rest.low[0] + apart < D < rest.high[0] - apart:
                     lower, rest = rest.split(np.full(1, D), smooth=False)
                     parts.append(lower)
-            parts.append(rest if len(parts) > before else rest.halves)
+            # halves by parameter: next to an end that is like a root far less than half
+            halves = rest.split(rest.at(np.array([0.5]))[:, 0], smooth=True)
+            parts += [rest] if len(parts) > before else halves
         return parts
 
 

@@ -50,11 +50,13 @@ def growing(arrive: Iterable[float], last: float, width: float) -> list[tuple[fl
 
 @dataclass
 class Walk:
-    """To the pressure ``p``, Pa; from the penetration ``top`` on the curve carries more. What it may err by: at the first look at
-    a part ``rough``, at last ``finest``, in what is asked for now ``goal``. ``waiting``: what is left, the next part last; what
-    is as ``narrow``, m, is left out; ``now``: the intervals it goes along, low and high ends and which of them are inner ones,
-    (4, k); ``known``: pieces of all others, and the goal each was asked with. ``arrived``: it need not go on. ``undecided``: why,
-    if it is, and how far quantities are apart where it may be (``other``, (q,))."""
+    """The way of a ``column`` to its pressure ``p``, Pa; from the penetration ``top`` on its curve carries more.
+
+    Pressures may err by ``rough`` where a part is interpolated first, by ``finest`` at last, by ``goal`` in what is interpolated
+    now. ``waiting``: parts that are left, the next one last, but for what is as ``narrow``, m; ``now``: intervals to interpolate,
+    their low and high ends and which of these are inner ones, (4, k); ``known``: the pieces so far, each with its goal.
+    ``arrived``: nothing more is to be interpolated. ``undecided``: why the root is not certain, if it is not, and how far
+    quantities differ between the places where it may be (``other``, (q,))."""
 
     column: int
     unloading: bool
