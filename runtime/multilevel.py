@@ -152,17 +152,17 @@ class Surface:
                 continue
             # where the work came to a limit more of it is no help
             size = np.abs(out.tau.sum(axis=0))
-            told = (V == 0) | adhesive | (out.error <= _DIGIT * size)
-            sure = self.converged(out) & told
+            has_digit = (V == 0) | adhesive | (out.error <= _DIGIT * size)
+            sure = self.converged(out) & has_digit
             missed = np.flatnonzero(~sure & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
                 finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
-                size = (size + np.where(told, self.friction_floor, 0.0))[missed]
+                size = (size + np.where(has_digit, self.friction_floor, 0.0))[missed]
                 # with adhesion penetrations don't rest on laws
                 found = first.found.take(missed) if same else None
                 again = _Solve(finer, V[missed], load[missed], by_pressure, size, found)
-                # a friction of which no digit is told is better told by strips that are searched for, whatever the errors
-                out.improve(missed, again.run(np.zeros(missed.size, bool), None), ~told[missed] & (not finer.families))
+                # a friction of which no digit is known is better known by strips that are searched for, whatever the errors
+                out.improve(missed, again.run(np.zeros(missed.size, bool), None), ~has_digit[missed] & (not finer.families))
         if known < len(self.levels):
             out.extend(saturated_friction(self.material, self.levels[known:], V))
         return out

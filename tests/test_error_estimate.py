@@ -68,7 +68,7 @@ def test_sum_errors_see_a_layer_at_an_end_that_falls_slowly(n, thin):
 def test_a_first_change_that_is_small_by_chance_is_not_believed():
     """One quantity hardly moves from rule to rule, another does: where one is not settled none is."""
     sums = np.array([[[5.817381, 0.026171]], [[5.817343, 0.026138]]])
-    _, errors = by_rules(lambda rows, rule: sums[rule], (0, 1), np.full((1, 2), np.inf), 0.01, at_once=True)
+    _, errors = by_rules(lambda rows, rule: sums[rule], (0, 1), np.full((1, 2), np.inf), np.zeros((1, 1)), 0.01, at_once=True)
     assert errors[0, 0] > 5.817343 - 5.816760
 
 
@@ -76,10 +76,10 @@ def test_sums_that_fall_slowly_miss_what_is_left_of_the_series():
     """Sums whose changes halve miss as much as the last change; a change that is small by chance says little."""
     rules, rows = range(6), np.full((1, 1), 1e-9)
     halving = lambda left, rule: np.full((1, 1), 1 + 0.5**rule)  # noqa: E731
-    out, errors = by_rules(halving, rules, rows, 0.01)
+    out, errors = by_rules(halving, rules, rows, 0 * rows, 0.01)
     assert abs(out[0, 0] - 1) <= errors[0, 0] <= 2 * abs(out[0, 0] - 1)
     chance = lambda left, rule: np.array([[(1.0, 1.1, 1.1, 1.05, 1.05, 1.05)[rule]]])  # noqa: E731
-    assert by_rules(chance, rules[:3], rows, 0.25)[1][0, 0] >= 0.01
+    assert by_rules(chance, rules[:3], rows, 0 * rows, 0.25)[1][0, 0] >= 0.01
 
 
 def test_constants_and_lines_are_summed_without_error():

@@ -213,16 +213,15 @@ def by_rules(
     sums: Callable[[np.ndarray, Any], np.ndarray],
     rules: Sequence,
     goal: np.ndarray,
+    relative: np.ndarray,
     fastest: float,
     at_once: bool = False,
-    relative: np.ndarray | float = 0.0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Sums (m, q) by as many of the ``rules`` as it takes for an error of ``goal + relative |sum|``, (m, q) and (m, 1), and the
     errors (m, q): from the third rule on, or from the second ``at_once``. No r less than ``fastest`` is believed.
 
     ``sums(rows, rule)`` returns those of the rows by a rule."""
     left, (out, errors) = np.arange(len(goal)), np.zeros((2, *goal.shape))
-    relative = np.broadcast_to(relative, (len(goal), 1))
     old = change = None
     for rule in rules:
         if not left.size:

@@ -47,11 +47,11 @@ def family_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tup
     index = np.flatnonzero(columns.D > 0)
     sums, own = _Sums(columns.at(index, columns.D[index])), slice(0, 3)
     rtol, atol = _QUADRATURE * rtol[index, None], _QUADRATURE * atol[index]
-    values[index, own], errors[index, own] = by_rules(sums.own, _ALONE, atol[:, own], _FASTEST[0], False, rtol)
+    values[index, own], errors[index, own] = by_rules(sums.own, _ALONE, atol[:, own], rtol, _FASTEST[0])
     errors[index, own] += sums.of_series()
     if columns.carry is not None:
         q = columns.carry.scales.size
-        values[index, -q:], errors[index, -q:] = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST[1], True, rtol)
+        values[index, -q:], errors[index, -q:] = by_rules(sums.carried, _RULES, atol[:, -q:], rtol, _FASTEST[1], at_once=True)
     return values, errors
 
 
