@@ -14,11 +14,11 @@ import numpy as np
 
 from ..numerics.rounding import EPS, LARGEST
 from .branches import Branch, Piece, rising
+from .look import DOUBT
 from .strips import AT_JUMP, NO_CURVE
 
-#: how much finer each further look is; by how many errors a turn has to keep away from the pressure, at least; and part of a
-#: piece over which a curve is taken to be straight, at least and at most
-_FINER, _DOUBT, _STEPS = 0.03, 2.0, (1e-5, 1 / 64)
+#: how much finer each further look is; part of a piece over which a curve is taken to be straight, at least and at most
+_FINER, _STEPS = 0.03, (1e-5, 1 / 64)
 
 
 class Root(NamedTuple):
@@ -81,7 +81,7 @@ class Walk:
         self.known.update(dict.fromkeys(found, self.goal))
         clings = self.p < 0 and not self.unloading
         # as the first strips cling the pressure falls below zero, and where it is least is known when it comes back
-        if not row or (clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0])):
+        if not row or (clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + DOUBT * row[0].errors.most[0])):
             return
         k, least, most = self._place(row)
         doubtful = least < most or bool(self._near(row, k, self._coarser(row)))
@@ -115,7 +115,7 @@ class Walk:
         # a turn that no node met may be off by what was asked for, whatever the errors say, while more can be asked for; what
         # lies behind does not matter as long as the pressure is met before
         unseen = [self.known[part.piece] * (self.known[part.piece] > self.finest) for part in row]
-        doubts = np.maximum(unseen, [_DOUBT * part.errors.most[0] for part in row])
+        doubts = np.maximum(unseen, [DOUBT * part.errors.most[0] for part in row])
         doubts[slice(max(k, 0) // 2) if self.unloading else slice((k + 3) // 2, None)] = 0.0
         least, most = place(self.p - doubts), place(self.p + doubts)
         joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
@@ -128,7 +128,7 @@ class Walk:
     def _apart(self, row: list[Branch], least: int, most: int, exhausted: bool) -> np.ndarray:
         """How far quantities (q,) differ between the places from ``least`` to ``most`` at which the pressure may be."""
         parts, nowhere = row[max(least, 0) // 2 : (most + 1) // 2 + 1], least < 0 or exhausted
-        ends = [(part, self.p + side * _DOUBT * part.errors.most[0]) for part in parts for side in (-1, 1)]
+        ends = [(part, self.p + side * DOUBT * part.errors.most[0]) for part in parts for side in (-1, 1)]
         values = np.array([part.piece.values(np.array([part.parameter_at(p)]))[0] for part, p in ends])
         # two branches that overlap by less than they are known to may be one
         one = not nowhere and most < 2 * len(row) - 1 and all(a.inner_high and b.inner_low for a, b in pairwise(parts))
@@ -177,7 +177,7 @@ class Walk:
     def _comes_to(self, piece: Piece) -> bool:
         """Whether the curve carries the pressure in a piece or next to it, but for errors."""
         t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
-        met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], self.known[piece])
+        met, doubt = piece.values(t)[:, 0], max(DOUBT * piece.errors.most[0], self.known[piece])
         return bool(met.min() - doubt <= self.p <= met.max() + doubt)
 
 
