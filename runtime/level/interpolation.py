@@ -123,10 +123,10 @@ class _Work:
         answers = sampled(stages, Intervals.at, lambda parts, D: means_in(self.columns, parts, D))
         for before, stage in zip(stages, answers, strict=True):
             if stage.n == _LOOK:
-                going.append(self._looked(stage))
+                going.append(self._after_first_look(stage))
                 continue
             if before.n == _LOOK and self.columns.branch == "unloading":
-                stage, parts = self._met(stage)
+                stage, parts = self._after_second_look(stage)
                 fresh.append(parts)
             left, goal, hopeless = self._converged(stage)
             fresh += self._divided(left.take(hopeless), goal[hopeless])
@@ -135,7 +135,7 @@ class _Work:
             going.append(Stage(Intervals.joined(fresh), self.first))
         return [stage for stage in going if stage.parts.size]
 
-    def _looked(self, stage: Stage) -> Stage:
+    def _after_first_look(self, stage: Stage) -> Stage:
         """What a branch may come to, of the first look; by now it is known what pressures an interval comes to, and so how well
         they have to be known."""
         if self.columns.branch == "unloading":
@@ -145,7 +145,7 @@ class _Work:
             stage.parts[known] = weighed(self.columns, self.budget, stage.parts.take(known), stage.known[0][known])
         return stage
 
-    def _met(self, stage: Stage) -> tuple[Stage, Intervals]:
+    def _after_second_look(self, stage: Stage) -> tuple[Stage, Intervals]:
         """What unloading may come to, of the second look; and the parts of rough intervals, as coarse as the budget allows."""
         D, values = _with_ends(stage), stage.known[0]
         meets, ceiling = unloading_meets(stage, D, BENDS[1])

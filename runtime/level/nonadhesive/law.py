@@ -184,8 +184,8 @@ def _law(columns: LevelBatch, saturated: Saturation, rtol, friction, fraction) -
         cuts.append(h + np.where(sharp[:, None], columns.carry.breaks, np.inf) / K)
     cuts = np.sort(np.minimum(np.concatenate(cuts, axis=1), top[:, None]), axis=1)
     near = np.diff(cuts, axis=1) <= _SAME * np.minimum(cuts[:, 1:], h)
-    for j in np.flatnonzero(near.any(axis=0)):
-        cuts[near[:, j], j + 1] = cuts[near[:, j], j]
+    for j, same in enumerate(near.T):
+        cuts[same, j + 1] = cuts[same, j]
     ends, series, steepest = _pieces(columns, cuts, rtol, friction, fraction)
     p_top = np.where(np.isfinite(ends[1]), ends[1], 0.0).max(axis=1)
     edge = np.where(cuts[:, 1:] == h, ends[1], np.inf).min(axis=1)
@@ -225,10 +225,10 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         done = (miss <= goal).all(axis=1) | (n == _NODES[-1])
         error = (known[:, :, -2] + slope[:, None] * known[:, :, -1]).max(axis=1)
         fitted[:, 0, -1] = miss[:, 0] + error
-        at = group[left[done]], piece[left[done]]
+        which = group[left[done]], piece[left[done]]
         series = np.concatenate((series, np.zeros((G, J, n + 1 - series.shape[2], q))), axis=2)
-        series[at], ends[:, *at] = fitted[done], known[done][:, [0, -1], 0].T
-        np.maximum.at(steepest, at[0], slope[done])
+        series[which], ends[:, *which] = fitted[done], known[done][:, [0, -1], 0].T
+        np.maximum.at(steepest, which[0], slope[done])
         left, known = left[~done], known[~done]
     return ends, series, steepest
 
