@@ -153,6 +153,61 @@ def test_standard_errors_are_the_scatter_of_the_shifts():
         assert 0.7 < np.sqrt(np.mean(np.square(off))) < 1.5, (list(celsius), len(frequency), vertical)
 
 
+BUMPY = {"TIMES": np.geomspace(1e-9, 100, 20)}
+BUMPY["MODULI"] = 2e7 * np.exp(-(((np.log10(BUMPY["TIMES"]) + 4) / 2.2) ** 2) / 2 + 1.2 * np.cos(5.0 * np.arange(20) ** 2))
+#: 1/K, expansion of a rubber
+EXPANSION = 6.5e-4
+
+
+def density_ratio(T):
+    """b_T of an ideal rubber, density times temperature, against 293.15 K."""
+    return T / 293.15 / (1 + EXPANSION * (T - 293.15))
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "noise", "whole"),
+    [({}, 0.01, 0.0), ({}, 0.005, 0.01), (BUMPY, 0.01, 0.0), (BUMPY, 0.002, 0.0)],
+    ids=["smooth", "clamped anew", "bumpy", "bumpy, quiet"],
+)
+def test_vertical_exponent_is_known_to_its_standard_error(monkeypatch, spectrum, noise, whole):
+    """Two times of three within one, 19 of 20 within two: with noise of points, with another factor for each isotherm, as samples
+    that are clamped anew have it, and for spectra whose bumps once passed for exponents of 0.6 +- 0.2 and the like."""
+    for name, values in spectrum.items():
+        monkeypatch.setitem(isotherms.__globals__, name, values)
+    off = []
+    for seed in range(45):
+        v = (0.0, -1.0, 1 - EXPANSION * 293.15)[seed % 3]
+        rng = np.random.default_rng(seed + 100)
+        given = []
+        for each in isotherms(WILLIAMS, range(-20, 61, 10), noise, FREQUENCY, seed):
+            b = density_ratio(each.temperature) if v > 0 else (each.temperature / 293.15) ** v
+            given.append(each.shifted(1.0, np.exp(whole * rng.standard_normal()) / b))
+        found = master_curve(given, vertical=True)
+        off.append((found.shift.vertical - v) / found.vertical_error)
+    off = np.abs(off)
+    assert 0.5 < np.mean(off < 1) < 0.85 and np.mean(off < 2) > 0.87 and off.max() < 4.5, np.sort(off)
+
+
+def test_vertical_exponent_is_printed_with_its_standard_error_and_what_it_may_be():
+    given = isotherms(WILLIAMS, range(-20, 61, 10), 0.01)
+
+    def noted(v):
+        found = master_curve([each.shifted(1.0, (293.15 / each.temperature) ** v) for each in given], vertical=True)
+        stated = f"vertical exponent {found.shift.vertical:.3g} +- {found.vertical_error:.2g}; "
+        assert stated in found.report() and 0.02 < found.vertical_error < 0.12
+        assert found.b_T_error == pytest.approx(np.abs(np.log(found.temperatures / 293.15)) * found.vertical_error)
+        return " ".join(each for each in found.remarks if "exponent" in each)
+
+    assert noted(0.0).endswith("cannot be told from 0, no vertical shift")
+    assert noted(0.9) == ""
+    assert noted(-1.0).endswith("is neither 0 nor that of rubber elasticity, 0.75 to 1: filler, glass, or a sample that changed")
+    assert "stands at a bound" in noted(3.5)
+    plain = master_curve(given)
+    assert plain.vertical_error == 0 and not plain.b_T_error.any() and "vertical exponent 0; " in plain.report()
+    near = master_curve(isotherms(WILLIAMS, (18, 20, 22, 24, 26), 0.02, FREQUENCY[::2]), vertical=True)
+    assert any("from 0, no vertical shift, nor from that of rubber elasticity" in each for each in near.remarks)
+
+
 def test_shift_across_a_whole_number_of_decades_is_certain_as_its_neighbours():
     """The number of knots of the smooth curve once changed with the shifts, which made one of them certain to 3e-8."""
     given = isotherms(hystrip.WLF(8.86, 101.6, 293.15, vertical=1.0), range(-30, 61, 6))

@@ -55,6 +55,7 @@ def command(
         "relative standard error of a_T": found.a_T_error,
         "a_T of the law": found.shift.factor(found.temperatures),
         "b_T": found.b_T,
+        "relative standard error of b_T": found.b_T_error,
     }
     about = [*about_version(), f"data: {data.name}", shift_remark(found.shift)]
     with outputs_from(data, out, names) as files:

@@ -13,7 +13,7 @@ from .isotherms import repeats_differ
 from .modulus import DynamicModulus
 from .plausibility import POOR_REPEAT
 from .readings import celsius, degrees
-from .superposition import Superposition, apart, superpose
+from .superposition import LARGEST_EXPONENT, Superposition, apart, superpose
 
 LAWS = ("best", "WLF", "Arrhenius")
 #: K: without a temperature asked for, the isotherm nearest to 20 degrees Celsius is the reference
@@ -28,6 +28,8 @@ _POOR_OVERLAP = 0.5
 _OFF, _STANDS_OUT = 0.2, 5.0
 #: decades that a measured shift is uncertain by at least, with the temperature of its isotherm
 _LEAST_ERROR = 0.02
+#: exponents of b_T that rubber elasticity has: density, which falls with temperature by 7e-4/K at most, times temperature
+_ELASTIC = (0.75, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +41,13 @@ class MasterCurve:
     data : all measured points at the reference temperature, a :class:`DynamicModulus`
     temperatures : of the isotherms, K, ascending, shape (n,)
     a_T, b_T : horizontal and vertical shift factors, (n,): ``E*(omega, T) = b_T E*(a_T omega, T_ref)``; 1 at the reference
-    a_T_error : relative standard errors of a_T, (n,): from the scatter of the points about the smooth curve
+    a_T_error, b_T_error : relative standard errors of these, (n,): from the scatter of the points about the smooth curve, and of
+        whole isotherms; vertical_error : standard error of ``shift.vertical``. Zero for what was not fitted
     shift : the law fitted to them, a :class:`hystrip.WLF` or :class:`hystrip.Arrhenius`
     rms : root mean square of the relative distance of points from the smooth curve; law_rms : of log10 a_T from the law
     isotherms : what was measured, in the order of the temperatures
-    remarks : isotherms off the law, neighbours that hardly overlap, temperatures at which repeats differ, in words
+    remarks : isotherms off the law, neighbours that hardly overlap, temperatures at which repeats differ, a vertical exponent
+        that may be zero or is none of rubber elasticity, in words
     """
 
     data: DynamicModulus
@@ -51,6 +55,8 @@ class MasterCurve:
     a_T: np.ndarray
     b_T: np.ndarray
     a_T_error: np.ndarray
+    b_T_error: np.ndarray
+    vertical_error: float
     shift: WLF | Arrhenius
     rms: float
     law_rms: float
@@ -66,12 +72,13 @@ class MasterCurve:
         """Shift factors, their law, and how well they hold, as text."""
         s, f = self.shift, self.data.frequency
         law = f"C_1 = {s.C_1:.4g}, C_2 = {s.C_2:.4g} K" if isinstance(s, WLF) else f"E_a = {s.E_a / 1e3:.4g} kJ/mol"
+        error = f" +- {self.vertical_error:.2g}" if self.vertical_error else ""
         lines = [
             f"isotherms  {len(self.temperatures)}, {celsius(self.temperatures[0])} to {celsius(self.temperatures[-1])}, "
             f"{f.size} points",
             f"master     at {celsius(self.T_ref)}: {f[0]:.3g} to {f[-1]:.3g} Hz; points lie {100 * self.rms:.2g} % rms off one "
             "smooth curve",
-            f"shift      {type(s).__name__}: {law}, vertical exponent {s.vertical:.3g}; "
+            f"shift      {type(s).__name__}: {law}, vertical exponent {s.vertical:.3g}{error}; "
             f"log10 a_T is {self.law_rms:.2g} rms off it",
             *(f"note       {remark}" for remark in self.remarks),
             "",
@@ -118,8 +125,10 @@ def master_curve(
     whole = (np.concatenate([getattr(each, name) for each in moved]) for name in ("omega", "storage", "loss"))
     data = DynamicModulus(*whole, isotherms[0].kind, T_ref, isotherms[0].columns)
     off = log_a - np.log10(shift.factor(T))
-    rms, remarks = found.rms * np.log(10), _remarks(isotherms, found, off, errors)
-    return MasterCurve(data, T, a_T, b_T, errors * np.log(10), shift, float(rms), law_rms, tuple(isotherms), remarks)
+    remarks = (*_remarks(isotherms, found, off, errors), *(_remarks_on_exponent(found) if vertical else ()))
+    rms, error = float(found.rms * np.log(10)), found.exponent_error
+    of_a, of_b = errors * np.log(10), np.abs(np.log(T / T_ref)) * error
+    return MasterCurve(data, T, a_T, b_T, of_a, of_b, error, shift, rms, law_rms, tuple(isotherms), remarks)
 
 
 def _reference(T_ref: Any, T: np.ndarray) -> float:
@@ -159,6 +168,20 @@ def _remarks(isotherms: list[DynamicModulus], found: Superposition, off: np.ndar
             percent = f"{100 * differ:.2g} %"
             said.append(f"at {celsius(each.temperature)} moduli measured twice differ by up to {percent} (Set keeps them apart)")
     return tuple(said)
+
+
+def _remarks_on_exponent(found: Superposition) -> list[str]:
+    """What is odd about the exponent of b_T, as far as its standard error tells."""
+    v, (least, most) = found.exponent, _ELASTIC
+    stated = f"the vertical exponent, {v:.2g} +- {found.exponent_error:.2g},"
+    if abs(v) > LARGEST_EXPONENT * (1 - 1e-6):
+        return [f"{stated} stands at a bound: no power of temperature shifts these moduli"]
+    reach = 2 * found.exponent_error
+    elastic = least - reach <= v <= most + reach
+    usual = f"that of rubber elasticity, {least:g} to {most:g}"
+    if abs(v) <= reach:
+        return [f"{stated} cannot be told from 0, no vertical shift{f', nor from {usual}' if elastic else ''}"]
+    return [] if elastic else [f"{stated} is neither 0 nor {usual}: filler, glass, or a sample that changed"]
 
 
 def _checked(isotherms: Any) -> list[DynamicModulus]:

@@ -1,7 +1,9 @@
 """Shifts at which isotherms lie best on one smooth curve, their covariance, and whether isotherms overlap there.
 
 The curve is a cubic spline of log modulus over log reduced frequency, storage and loss each with its own, fitted together
-with the shifts by least squares (variable projection).
+with the shifts by least squares (variable projection). It has as many knots as the points call for: what bumps of a spectrum
+leave on too few of them would pass for shifts. Errors are of two kinds, of single points and of whole isotherms, as a sample
+that is clamped anew has them.
 """
 
 from dataclasses import dataclass
@@ -12,8 +14,10 @@ from ..errors import InputError
 from .modulus import DynamicModulus
 from .readings import degrees
 
-#: knots of the smooth curve per decade of reduced frequency
-_KNOTS = 1.0
+#: knots of the smooth curve per decade of reduced frequency, the next ones where they lower Akaike's criterion
+_KNOTS = (1, 2, 3, 4)
+#: exponents of b_T are sought up to this
+LARGEST_EXPONENT = 3.0
 #: steps per decade in which the first guess of a shift is sought
 _STEPS = 20
 #: share of the narrower of two bands that has to overlap in the first guess
@@ -26,12 +30,13 @@ _FLAT = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class Superposition:
-    """log10 of the shift factors (n,) of isotherms, 0 at the reference; their covariance (n, n); the exponent of b_T; and the
-    rms distance of points from the smooth curve in decades of modulus."""
+    """log10 of the shift factors (n,) of isotherms, 0 at the reference; their covariance (n, n); the exponent of b_T and its
+    standard error; and the rms distance of points from the smooth curve in decades of modulus."""
 
     log_a: np.ndarray
     covariance: np.ndarray
     exponent: float
+    exponent_error: float
     rms: float
 
 
@@ -136,32 +141,58 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
     T = np.array([each.temperature for each in isotherms])
     warmth = np.log10(T / T[at])[owner]
     free = np.flatnonzero(np.arange(len(logs)) != at)
-    # as many while shifts change: with another number the residuals would jump
-    pieces = max(int(np.ceil(_KNOTS * np.ptp(x + start[owner]))), 1)
+    bounds = np.full((2, free.size + vertical), [[-np.inf], [np.inf]])
+    bounds[:, free.size :] = [[-LARGEST_EXPONENT], [LARGEST_EXPONENT]]
 
-    def log_a(parameters):
+    def places(parameters):
         out = np.zeros(len(logs))
         out[free] = parameters[: free.size]
-        return out
+        return x + out[owner]
 
-    def residuals(parameters):
-        rows = _splines(x + log_a(parameters)[owner], pieces)
-        goal = (y - parameters[-1] * warmth).T if vertical else y.T
-        return (goal - rows @ np.linalg.lstsq(rows, goal, rcond=None)[0]).ravel()
+    def off(parameters, goal, pieces):
+        rows = _splines(places(parameters), pieces)
+        return goal - rows @ np.linalg.lstsq(rows, goal, rcond=None)[0]
 
-    bounds = np.full((2, free.size + vertical), [[-np.inf], [np.inf]])
-    bounds[:, free.size :] = [[-3.0], [3.0]]
-    first = np.append(start[free], [0.5] if vertical else [])
-    found = least_squares(residuals, first, bounds=bounds, x_scale=0.1, xtol=1e-10, ftol=1e-12)
-    shifts = log_a(found.x)
-    known = 2 * np.linalg.matrix_rank(_splines(x + shifts[owner], pieces)) + found.x.size
-    covariance = np.zeros((len(logs), len(logs)))
+    def residuals(parameters, pieces):
+        return off(parameters, (y - parameters[-1] * warmth).T if vertical else y.T, pieces).ravel()
+
+    best, least, first = None, np.inf, np.append(start[free], [0.5] if vertical else [])
+    for knots in _KNOTS:
+        # as many while shifts change: with another number the residuals would jump
+        pieces = max(int(np.ceil(knots * np.ptp(places(first)))), 1)
+        found = least_squares(residuals, first, bounds=bounds, x_scale=0.1, xtol=1e-8, ftol=1e-8, args=(pieces,))
+        known = 2 * np.linalg.matrix_rank(_splines(places(found.x), pieces)) + found.x.size
+        spare, first = found.fun.size - known - 1, found.x
+        # Akaike's criterion, corrected for few points
+        score = found.fun.size * (np.log(found.cost + 1e-300) + 2 * known / spare) if spare > 0 else np.inf
+        if best is not None and score >= least:
+            break
+        best, least = (found, pieces, known), score
+    found, pieces, known = best
     _, sizes, ways = np.linalg.svd(found.jac, full_matrices=False)
     loose = float(T[free[np.argmax(np.abs(ways[-1, : free.size]))]]) if sizes[-1] < _FLAT else None
-    covariance[np.ix_(free, free)] = ((ways.T / np.maximum(sizes, _FLAT) ** 2) @ ways)[: free.size, : free.size]
-    covariance *= 2 * found.cost / max(found.fun.size - known, 1)
-    exponent = float(found.x[-1]) if vertical else 0.0
-    return Superposition(shifts, covariance, exponent, float(np.sqrt(np.mean(found.fun**2)))), loose
+    inverse = (ways.T / np.maximum(sizes, _FLAT) ** 2) @ ways
+    of_one = np.repeat(off(found.x, np.eye(len(logs))[owner], pieces), 2, axis=0)  # of an isotherm as a whole
+    point, whole = _variances(found.fun, found.jac, of_one, known)
+    moved = inverse @ (found.jac.T @ of_one)
+    together = point * inverse + whole * (moved @ moved.T)
+    log_a, covariance = np.zeros(len(logs)), np.zeros((len(logs), len(logs)))
+    log_a[free], covariance[np.ix_(free, free)] = found.x[: free.size], together[: free.size, : free.size]
+    exponent, error = (float(found.x[-1]), float(np.sqrt(together[-1, -1]))) if vertical else (0.0, 0.0)
+    return Superposition(log_a, covariance, exponent, error, float(np.sqrt(np.mean(found.fun**2)))), loose
+
+
+def _variances(residuals: np.ndarray, jacobian: np.ndarray, of_one: np.ndarray, known: int) -> tuple[float, float]:
+    """Variances of single points, and of isotherms as a whole, by what residuals (m,) with ``known`` unknowns share with columns
+    ``of_one`` (m, n) beyond their ``jacobian`` (Henderson's third method)."""
+    beyond = of_one - jacobian @ np.linalg.lstsq(jacobian, of_one, rcond=None)[0]
+    directions, sizes, _ = np.linalg.svd(beyond, full_matrices=False)
+    kept = sizes > 1e-6 * np.sqrt(len(residuals))
+    shared = np.sum((directions[:, kept].T @ residuals) ** 2)
+    freedom = max(residuals.size - known, 1)
+    point = (np.sum(residuals**2) - shared) / max(freedom - kept.sum(), 1)
+    whole = (shared - kept.sum() * point) / np.sum(sizes[kept] ** 2) if kept.any() else 0.0
+    return (point, whole) if whole > 0 else (np.sum(residuals**2) / freedom, 0.0)
 
 
 def _splines(x: np.ndarray, pieces: int) -> np.ndarray:
