@@ -41,9 +41,8 @@ def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: i
     """
     number_of_level = check_level_number(number_of_level, len(result.levels))
     index = index_of(result, at)
-    V, D = float(np.ravel(result.velocity)[index]), float(np.ravel(result.penetration)[index])
+    V, D, p = (float(np.ravel(each)[index]) for each in (result.velocity, result.penetration, result.pressure))
     if not np.isfinite(D):
-        p = float(np.ravel(result.pressure)[index])
         raise InputError("at", index, f"a point in contact: at {p:g} Pa and {V:g} m/s the surface is pulled off")
     of, how = (result.material, result.adhesion), {"edge": result.edge, "branch": result.branch}
     for upper, level in pairwise(result.levels[:number_of_level]):
@@ -56,7 +55,7 @@ def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: i
         if not np.isfinite(D):
             allowed = f"a level that is not pulled off by the mean pressure in the contact of the one above, {p:.4g} Pa"
             raise InputError("level", number_of_level, allowed)
-    return Cell(*of, result.levels[number_of_level - 1], D, V, result.edge, result.branch)
+    return Cell(*of, result.levels[number_of_level - 1], D, V, result.edge, result.branch, p, number_of_level)
 
 
 def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[Floats]]:

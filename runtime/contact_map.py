@@ -25,7 +25,8 @@ _POINTS = (601, 401)
 
 @dataclass(frozen=True)
 class Cell:
-    """One level pressed in by ``D`` (m) at velocity ``V`` (m/s), with all that determines its strips."""
+    """One level pressed in by ``D`` (m) at velocity ``V`` (m/s), with all that determines its strips; its mean pressure (Pa), and
+    which level of a surface it is."""
 
     material: Material
     adhesion: Dugdale
@@ -34,6 +35,14 @@ class Cell:
     V: float
     edge: Edge
     branch: Branch
+    mean_pressure: float
+    number: int | None = None
+
+    def pressed(self, pressure: str) -> str:
+        """Which level it is and what presses it, in words; ``pressure``: the mean one as text."""
+        of = f"level {self.number} at " if self.number else ""
+        above = f", that in the contact of level {self.number - 1}" if (self.number or 1) > 1 else ""
+        return f"{of}a mean pressure of {pressure}{above}"
 
     def strip(self, y: Floats) -> StripSolution:
         """Strips at ``y`` (m); shape of ``y``."""
@@ -54,7 +63,7 @@ class ContactMap:
     gap : gap between foundation and surface, m, (ny, nx); zero in contact
     contact, adhesion : bool, (ny, nx): where they touch, and where they attract each other across the gap
     first, last : where contact begins and ends along each strip, m, (ny,); NaN in saturated contact and without contact
-    cell : the level, its penetration, the velocity, material and adhesion
+    cell : the level, its penetration and mean pressure, the velocity, material and adhesion
     """
 
     x: Floats
@@ -73,7 +82,8 @@ class ContactMap:
         contact, adhesion = (f"{float(f'{share:.2g}'):g} %" for share in shares)
         return (
             f"ContactMap: {self.x.size} x {self.y.size} points, l = {level.l:g} m, h = {level.h:g} m, D = {self.cell.D:.4g} m, "
-            f"V = {self.cell.V:g} m/s: {contact} in contact, {adhesion} in adhesion"
+            f"V = {self.cell.V:g} m/s, "
+            f"{self.cell.pressed(f'{self.cell.mean_pressure:.4g} Pa')}: {contact} in contact, {adhesion} in adhesion"
         )
 
     def plot(self) -> Figure:

@@ -121,11 +121,11 @@ class LevelSolution:
         if at is None and size > 1:
             raise InputError("at", at, f"which of the {size} points to look at")
         index = point_index(at, self.D.shape)
-        D, V = float(np.ravel(self.D)[index]), float(np.ravel(self.inputs.velocity)[index])
+        D, V, p = (float(np.ravel(each)[index]) for each in (self.D, self.inputs.velocity, self.p_mean))
         if not np.isfinite(D):
             raise InputError("at", at, "a point in contact: at this one the level is pulled off")
         asked = self.inputs
-        return Cell(asked.material, asked.adhesion, asked.level, D, V, asked.edge, asked.branch)
+        return Cell(asked.material, asked.adhesion, asked.level, D, V, asked.edge, asked.branch, p)
 
 
 @overload

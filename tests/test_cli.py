@@ -255,6 +255,7 @@ def test_show_draws_the_contact(run, tmp_path):
     status, out, err = run("show", "mine.toml", "--map", "--strip", "1 um", "--velocity", "2 mm/s")
     assert (status, err) == (0, "") and "velocity 0.002 m/s" in out and "pressure 1e+04 Pa" in out
     assert visible(tmp_path / "hystrip-out") == ["mine.map.png", "mine.strip.png"]
+    assert "level 1 at a mean pressure of 1e+04 Pa: " in out
 
 
 @pytest.mark.parametrize("given", [("--map",), ("--strip", 0)])

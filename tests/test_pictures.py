@@ -365,7 +365,20 @@ def test_a_lower_level_is_looked_at_under_the_mean_pressure_in_contact(pressure)
     assert lower.level == LEVELS[1]
     of = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[1], V=5e-3, D=lower.D, rtol=1e-3)
     mean = (pressure + ADHESION.p_0 * result.adhesion_by_level[0]) / result.contact_by_level[0]
-    assert of.p_mean == pytest.approx(mean, rel=2e-3)
+    assert of.p_mean == pytest.approx(mean, rel=2e-3) and lower.mean_pressure == pytest.approx(mean, rel=2e-3)
+
+
+def test_a_map_says_at_which_pressure_it_is():
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=100.0, velocity=5e-3, rtol=1e-3)
+    p = float((100.0 + ADHESION.p_0 * result.adhesion_by_level[0]) / result.contact_by_level[0])
+    for level, mean, above in ((1, 100.0, ""), (2, p, ", that in the contact of level 1")):
+        found = result.contact_map(level=level)
+        assert found.cell.mean_pressure == pytest.approx(mean, rel=1e-3)
+        said = f"level {level} at a mean pressure of {found.cell.mean_pressure:.4g} Pa{above}"
+        assert f", {said}: " in repr(found)
+        assert found.plot().axes[0].get_title().replace("\n", " ") == said and inside(found.plot())
+    level = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], V=5e-3, pressure=[50.0, 100.0], rtol=1e-3)
+    assert ", a mean pressure of 50 Pa: " in repr(level.contact_map(at=0))
 
 
 def test_a_lower_level_that_the_mean_pressure_pulls_off_is_refused():

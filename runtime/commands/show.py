@@ -49,11 +49,15 @@ def command(
     if result.pulled_off and (map or strip is not None):
         allowed = f"one at which there is contact to draw: at {float(result.velocity):g} m/s the surface is pulled off"
         raise InputError("pressure" if pressure is None else "--pressure", float(result.pressure), allowed)
+    drawn = result.contact_map(0, level) if map else None
     if names:
         from ..plots import save
 
         with outputs_from(case.source, out, [*names.values()]) as files:
             for kind, name in names.items():
-                save(result.plot(kind, at=0, level=level, y=y), files.path(name))
+                figure = drawn.plot() if drawn is not None and kind == "map" else result.plot(kind, at=0, level=level, y=y)
+                save(figure, files.path(name))
     say(result.summary())
+    if drawn is not None:
+        say(f"drawn      {drawn!r}")
     say_written(out / name for name in names.values())

@@ -57,6 +57,7 @@ def contact_map(cell: ContactMap) -> Figure:
     bar.ax.set_ylim(low, high if high > low else low + reach)
     bar.ax.tick_params(labelsize=7)
     panel.set_aspect("equal")
+    panel.set_title(cell.cell.pressed(pressure(cell.cell.mean_pressure)).replace(", ", ",\n"), fontsize=7)
     panel.set_xlabel(f"$x/l$, $l$ = {length(l)} (sliding towards $+x$)")
     panel.set_ylabel("$y/l$")
     figure: Figure = panel.figure
