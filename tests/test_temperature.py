@@ -152,7 +152,11 @@ WRONG = [
     ('model = "WLF"', 'model = "Arrhenius"', "material.shift.C_1: a key of the model WLF"),
     ("C_1 = 8.86", "", "material.shift.C_1: missing"),
     ("C_1 = 8.86", "C_1 = 0", "material.shift.C_1: got 0"),
-    ("C_2 = 101.6", 'C_2 = "101.6 K"', "material.shift.C_2: got '101.6 K'; allowed: second constant"),
+    ("C_2 = 101.6", 'C_2 = "101.6 degC"', "C_2: got '101.6 degC'; .* or 'delta_degC', since it is a difference of temperatures"),
+    ("C_2 = 101.6", 'C_2 = "101.6 °F"', "C_2: got '101.6 °F'; .*; °F is that of a temperature, told from a zero of its own"),
+    ("C_2 = 101.6", 'C_2 = "101.6 degRe"', "C_2: got '101.6 degRe'"),
+    ("C_2 = 101.6", 'C_2 = "101.6 m"', "C_2: got '101.6 m'; .*unit of something else"),
+    ("C_2 = 101.6", "C_2 = true", r"C_2: got True; allowed: second constant of WLF, > 0: a number in K \(difference\)"),
     ('T_ref = "20 degC"', "", "material.shift.T_ref: missing"),
     ('T_ref = "20 degC"', "T_ref = -20", "material.shift.T_ref: got -20"),
     ('T_ref = "20 degC"', 'T_ref = "-300 °C"', "T_ref: got '-300 °C'; allowed: a temperature above absolute zero, -273.15 °C"),
@@ -171,6 +175,11 @@ WRONG = [
     ('temperature = "104 °F"', "temperature = 150", "temperature: got 150"),
     ('edge = "constitutive"', "", "edge: .*several relaxation times"),
 ]
+
+
+@pytest.mark.parametrize(("written", "kelvin"), [('"101.6 K"', 101.6), ('"101.6 delta_degC"', 101.6), ('"90 delta_degF"', 50.0)])
+def test_a_difference_of_temperatures_may_have_its_unit(written, kelvin):
+    assert parse_scene(SCENE.replace("C_2 = 101.6", f"C_2 = {written}")).material.shift.C_2 == kelvin
 
 
 @pytest.mark.parametrize(("old", "new", "said"), WRONG)

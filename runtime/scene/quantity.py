@@ -16,6 +16,8 @@ _OFFSETS = {
     **dict.fromkeys(("°C", "degC", "celsius", "℃"), ("273.15", "5")),
     **dict.fromkeys(("°F", "degF", "fahrenheit"), ("459.67", "9")),
 }
+#: a difference of temperatures, which no zero of a scale moves
+DIFFERENCE = "K (difference)"
 _LONGEST = 100  # characters of a quantity, or of a unit
 #: a number raised to a power, or one of many digits: computing it could take for ever
 _ENDLESS = re.compile(r"\d[\s)]*(\*\*|\^)|\d{4}")
@@ -59,7 +61,13 @@ def _converted(text: str, unit: str, field: str) -> float:
         raise InputError(field, text, _allowed(unit))
     if match["unit"] is None:
         raise InputError(field, text, f"a number in {unit} without quotes, or text with a unit")
-    if unit == "K" and match["unit"] in _OFFSETS:  # no factor turns degrees into kelvin
+    if unit == DIFFERENCE:
+        if match["unit"] in _OFFSETS:
+            problem = f"{match['unit']} is that of a temperature, told from a zero of its own"
+            raise InputError(
+                field, text, f"{_allowed(unit)} or 'delta_degC', since it is a difference of temperatures; {problem}"
+            )
+    elif unit == "K" and match["unit"] in _OFFSETS:  # no factor turns degrees into kelvin
         offset, scale = _OFFSETS[match["unit"]]
         kelvin = float((Decimal(match["number"]) + Decimal(offset)) * 5 / Decimal(scale))
         if kelvin <= 0:
@@ -99,7 +107,7 @@ def _factor(written: str, unit: str, field: str, text: str, allowed: str) -> Dec
 def _in_si(written: str, unit: str) -> Decimal:
     if _ENDLESS.search(written):
         raise ValueError(written)
-    registry = _registry()
+    registry, unit = _registry(), "K" if unit == DIFFERENCE else unit
     parsed = registry.parse_units(written)
     if unit == "K" and registry.Quantity(Decimal(0), parsed).to(unit).magnitude:  # another scale with a zero of its own
         raise ValueError(written)
@@ -126,6 +134,7 @@ EXAMPLES: dict[str, Any] = {
     "J/m^2": "25 uJ/m^2",
     "m/s": "5 mm/s",
     "K": "20 degC",
+    DIFFERENCE: "51.6 K",
     "J/mol": "80 kJ/mol",
 }
 """An example for every SI unit that a scene uses."""

@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Literal
 
 from ..extras import require
-from .quantity import EXAMPLES
+from .quantity import DIFFERENCE, EXAMPLES
 
 msgspec = require("msgspec", "cli", "reading scenes")
 Meta, Struct = msgspec.Meta, msgspec.Struct
@@ -54,7 +54,7 @@ class Range(Struct, forbid_unknown_fields=True, kw_only=True):
 
 
 Values = Number | list[Number] | Range
-#: values without text: those of a difference of temperatures, where a text in degrees could be read in two ways, and of no unit
+#: values without text: those of no unit
 Plain = float | list[float] | Range
 
 
@@ -64,7 +64,7 @@ class Shift(Struct, forbid_unknown_fields=True, kw_only=True):
     model: Annotated[Literal["WLF", "Arrhenius"], Meta(description='"WLF" (C_1, C_2) or "Arrhenius" (E_a)')]
     T_ref: Annotated[Values, _swept_meta("temperature of the moduli and times given", "K")]
     C_1: Annotated[Plain | None, _plain_meta("first constant of WLF, a number > 0")] = None
-    C_2: Annotated[Plain | None, _plain_meta("second constant of WLF, a number > 0 (K)")] = None
+    C_2: Annotated[Values | None, _swept_meta("second constant of WLF, > 0", DIFFERENCE)] = None
     E_a: Annotated[Values | None, _swept_meta("activation energy, > 0", "J/mol")] = None
     vertical: Annotated[
         Plain,

@@ -20,6 +20,7 @@ from ..inputs.shift import check_exponents
 from ..loading import solver_key
 from ..scene.errors import SceneError, nearest
 from ..scene.load import build_adhesion, build_level, build_material, build_objects, quantities, refuse_ambiguous
+from ..scene.quantity import DIFFERENCE
 from . import code
 
 _LOADS = ("pressure", "penetration")
@@ -122,8 +123,8 @@ def unit_of(key: str, half_space: bool = False) -> str:
 
 
 def written_unit(key: str, half_space: bool = False) -> str:
-    """Unit of a quantity written as text: none of C_2, a difference of temperatures, where degrees could mean two things."""
-    return "1" if _last(key) == "C_2" else unit_of(key, half_space)
+    """Unit of a quantity written as text: of C_2 that of a difference of temperatures, where degrees would mean another thing."""
+    return DIFFERENCE if _last(key) == "C_2" else unit_of(key, half_space)
 
 
 def is_half_space(values: dict[str, Any]) -> bool:
