@@ -1,5 +1,7 @@
 """DMA data: what is read, and that a known spectrum comes back."""
 
+import warnings
+
 import numpy as np
 import pint
 import pytest
@@ -497,3 +499,28 @@ def test_command_writes_a_half_space(run, tmp_path):
         and "E = 2 (1 + nu) G" in text
         and load_scene(tmp_path / "hystrip-out/G.fitted.toml").material.n == 1
     )
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (
+            {"temperature": 20.0},
+            "dma.temperature, taken for K: 1 of 1 values is at 20 K, where a rubber is within 100 to 473.15 K",
+        ),
+        ({"storage": [2.0, 1e3], "loss": [1.0, 1.0]}, "dma.storage, taken for Pa: 1 of 2 values is at 2 Pa, where a rubber is"),
+        ({"storage": [2e12, 3e12]}, "dma.storage, taken for Pa: 2 of 2 values are at 2e.12 to 3e.12 Pa"),
+        ({"loss": [1e6, 5e7]}, "dma.loss over dma.storage: 1 of 2 values is at 25 of tan delta, .*: per cent, or another unit"),
+    ],
+)
+def test_moduli_and_temperatures_of_no_rubber_are_warned_of_as_those_of_a_file(given, said):
+    usual = {"omega": [1.0, 10.0], "storage": [1e6, 2e6], "loss": [1e5, 1e5], "temperature": 293.15}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        DynamicModulus(**usual)
+    with pytest.warns(hystrip.dma.DataWarning, match=said) as told:
+        data = DynamicModulus(**usual | given)
+    assert len(told) == 1 and told[0].filename == __file__
+    with warnings.catch_warnings():  # said once
+        warnings.simplefilter("error")
+        data.shifted(2.0).between(0.1)

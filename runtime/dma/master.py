@@ -123,7 +123,7 @@ def master_curve(
     a_T, b_T = 10.0**log_a, (T / T_ref) ** found.exponent
     moved = [each.shifted(a, b) for each, a, b in zip(isotherms, a_T, b_T, strict=True)]
     whole = (np.concatenate([getattr(each, name) for each in moved]) for name in ("omega", "storage", "loss"))
-    data = DynamicModulus(*whole, isotherms[0].kind, T_ref, isotherms[0].columns)
+    data = isotherms[0]._with(*whole, T_ref)
     off = log_a - np.log10(shift.factor(T))
     remarks = (*_remarks(isotherms, found, off, errors), *(_remarks_on_exponent(found) if vertical else ()))
     rms, error = float(found.rms * np.log(10)), found.exponent_error

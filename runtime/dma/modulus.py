@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..inputs.checks import LARGEST, has_unit, holds_truth, number, numbers
+from .plausibility import DataWarning, remark_on, remark_on_loss, remark_on_temperatures
 
 #: frequencies per decade at which a function is tabulated: several to each relaxation time of the finest series
 _PER_DECADE = 12
@@ -34,6 +36,9 @@ class DynamicModulus:
     Raises
     ------
     InputError : a value outside its range, or shapes that differ
+
+    Warns (``hystrip.dma.DataWarning``) of moduli, losses and a temperature of no rubber, as wrong units give; of those in a
+    file :func:`read_dma` does.
 
     >>> data = DynamicModulus(omega=[10.0, 1.0], storage=[2e6, 1e6], loss=[3e5, 1e5])
     >>> data.storage.tolist()
@@ -68,6 +73,12 @@ class DynamicModulus:
         order = np.argsort(omega, kind="stable")
         for name, values in (("omega", omega), ("storage", storage), ("loss", loss)):
             object.__setattr__(self, name, values[order])
+        if self.columns:  # of a file it has been said, with their names
+            return
+        remark_on("dma.storage, taken for Pa", self.storage, "values")
+        remark_on_loss("dma.loss over dma.storage", self.loss / self.storage, "values")
+        if self.temperature is not None:
+            remark_on_temperatures("dma.temperature, taken for K", np.array([self.temperature]), "values")
 
     @classmethod
     def from_complex(cls, omega: Any, modulus: Any, kind: str = "E") -> DynamicModulus:
@@ -143,5 +154,8 @@ class DynamicModulus:
         factor, vertical = number("factor", factor, "", 0, strict=True), number("vertical", vertical, "", 0, strict=True)
         return self._with(self.omega * factor, self.storage / vertical, self.loss / vertical)
 
-    def _with(self, omega, storage, loss) -> DynamicModulus:
-        return DynamicModulus(omega, storage, loss, self.kind, self.temperature, self.columns)
+    def _with(self, omega, storage, loss, temperature: float | None = None) -> DynamicModulus:
+        """Of the same kind. What is odd about it has been said."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DataWarning)
+            return DynamicModulus(omega, storage, loss, self.kind, temperature or self.temperature, self.columns)

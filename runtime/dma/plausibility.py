@@ -1,13 +1,17 @@
 """What about measured moduli and temperatures is hardly that of a rubber: said, not enforced."""
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..plausibility import COLDEST, HOTTEST
-from .columns import Column
-from .readings import Readings
+
+if TYPE_CHECKING:
+    from .readings import Readings
 
 #: Pa: softer than any gel that keeps its shape, stiffer than diamond; mPa taken for MPa comes out there
 SOFTEST, STIFFEST = 10.0, 1e12
@@ -21,20 +25,20 @@ class DataWarning(UserWarning):
     """Measured moduli or temperatures of no rubber. Names the column, the unit it was taken for, and what is usual."""
 
 
-def remark_on(where: str, column: Column, storage: np.ndarray) -> None:
-    """Warn of storage moduli (Pa, one for each row) of no rubber; ``column`` holds what they follow from."""
-    _remark(where, column, storage, SOFTEST, STIFFEST, "Pa", f"{SOFTEST:g} to {STIFFEST:g} Pa", "another unit?")
+def remark_on(taken: str, storage: np.ndarray, of: str = "rows") -> None:
+    """Warn of storage moduli (Pa) of no rubber; ``taken``: what they follow from, and for what unit it was taken."""
+    _remark(taken, storage, of, SOFTEST, STIFFEST, "Pa", f"{SOFTEST:g} to {STIFFEST:g} Pa", "another unit?")
 
 
-def remark_on_loss(where: str, column: Column, tan: np.ndarray) -> None:
-    """Warn of loss over storage modulus (one for each row) of no rubber; ``column`` holds what it follows from."""
-    _remark(where, column, tan, 0.0, LOSSIEST, "of tan delta", f"0 to {LOSSIEST:g}", "per cent, or another unit?")
+def remark_on_loss(taken: str, tan: np.ndarray, of: str = "rows") -> None:
+    """Warn of loss over storage modulus of no rubber; ``taken``: what it follows from, and for what unit it was taken."""
+    _remark(taken, tan, of, 0.0, LOSSIEST, "of tan delta", f"0 to {LOSSIEST:g}", "per cent, or another unit?")
 
 
-def remark_on_temperatures(where: str, column: Column, kelvin: np.ndarray) -> None:
-    """Warn of temperatures (K, one for each row) that no rubber is measured at."""
+def remark_on_temperatures(taken: str, kelvin: np.ndarray, of: str = "rows") -> None:
+    """Warn of temperatures (K) that no rubber is measured at; ``taken``: where they stand, and for what unit it was taken."""
     usual = f"{COLDEST:g} to {HOTTEST:g} K ({COLDEST - 273.15:g} to {HOTTEST - 273.15:g} degC)"
-    _remark(where, column, kelvin, COLDEST, HOTTEST, "K", usual, "another unit, or degrees and kelvin in one column?")
+    _remark(taken, kelvin, of, COLDEST, HOTTEST, "K", usual, "another unit, or degrees and kelvin in one column?")
 
 
 def remark_on_repeats(readings: Readings, isotherms: Sequence[np.ndarray]) -> None:
@@ -60,16 +64,11 @@ def remark_on_repeats(readings: Readings, isotherms: Sequence[np.ndarray]) -> No
     )
 
 
-def _remark(
-    where: str, column: Column, values: np.ndarray, low: float, high: float, unit: str, usual: str, question: str
-) -> None:
+def _remark(taken: str, values: np.ndarray, of: str, low: float, high: float, unit: str, usual: str, question: str) -> None:
     odd = values[(values < low) | (values > high)]
     if odd.size:
         ends = " to ".join(dict.fromkeys(f"{each:.4g}" for each in (odd.min(), odd.max())))
-        rows = "rows is" if odd.size == 1 else "rows are"
-        taken = f"{where}, column {column.name!r}, taken for {column.unit or 'a number'}"
+        those = f"{odd.size} of {values.size} {of} {'is' if odd.size == 1 else 'are'}"
         warnings.warn(
-            f"{taken}: {odd.size} of {values.size} {rows} at {ends} {unit}, where a rubber is within {usual}: {question}",
-            DataWarning,
-            stacklevel=5,
+            f"{taken}: {those} at {ends} {unit}, where a rubber is within {usual}: {question}", DataWarning, stacklevel=5
         )

@@ -109,12 +109,12 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
         refuse("absolute", good, f"numbers {rule} those of {chosen[pair[0]].name!r}")
     refuse(pair[1], np.isfinite(storage), "numbers > 0 where the storage modulus follows from them")
     temperature = to_kelvin(values["temperature"], chosen["temperature"], where) if "temperature" in chosen else None
-    remark_on(where, next(column for role, column in chosen.items() if role in ("storage", "loss", "absolute")), storage)
-    remark_on_loss(where, chosen[pair[1]], loss / storage)
+    remark_on(_taken(where, next(chosen[role] for role in chosen if role in ("storage", "loss", "absolute"))), storage)
+    remark_on_loss(_taken(where, chosen[pair[1]]), loss / storage)
     below = [] if rows is table.rows else table.rows[0][1]
     remark_on_contradictions(table, kept, below, columns, [chosen[role] for role in (used[0].role, *pair)], comma)
     if temperature is not None:
-        remark_on_temperatures(where, chosen["temperature"], temperature)
+        remark_on_temperatures(_taken(where, chosen["temperature"]), temperature)
     cells = lambda at: np.array([table.cell(row, at) for _, row in kept], object)  # noqa: E731
     names = cells(chosen["set"].index) if "set" in chosen else None
     others = set(range(len(table.names))) - {column.index for column in chosen.values()}
@@ -122,6 +122,10 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
     kind, taken = _kind(where, [chosen[role] for role in pair], shear)
     said = _said(table, chosen, taken, comma, len(rows) - len(kept), list(ignored))
     return Readings(where, values[used[0].role], storage, loss, kind, temperature, names, said, ignored)
+
+
+def _taken(where: str, column: Column) -> str:
+    return f"{where}, column {column.name!r}, taken for {column.unit or 'a number'}"
 
 
 def _kind(where: str, columns: list[Column], shear: bool) -> tuple[str, str]:
