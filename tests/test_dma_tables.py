@@ -407,6 +407,28 @@ def test_columns_that_contradict_each_other_are_remarked_on(tmp_path, names, cel
         read_dma(written(tmp_path, f"{names}\n{rows(*cells)}"))
 
 
+@pytest.mark.parametrize(
+    ("names", "cells", "said"),
+    [
+        (
+            "f [Hz];E' [Pa];E'' [Pa]",
+            [(1, 1e6, 1e5), (10, 2e6, 1e-21)],
+            r"line 3, column .E''.*: got 1e-21; .* 0, or 1e-20 to 1e\+40",
+        ),
+        ("f [Hz];E' [MPa];tan delta", [(1, 1, 1e-30), (10, 2, 0.1)], "line 2, column 'tan delta': got 1e-30; .* a loss modulus"),
+        (
+            "f [Hz];E' [Pa];E'' [Pa]",
+            [(1, 1e6, 1e5), (10, 1e-30, 1e-1)],
+            r"line 3, column .E' .*: got 1e-30; .* 1e-20 to 1e\+40 Pa",
+        ),
+        ("f [Hz];E' [GPa];tan delta", [(1, 1, 0.1), (10, 1e30, 1e20)], "line 3, column 'tan delta': got 1e.20; .* loss modulus"),
+    ],
+)
+def test_moduli_beyond_all_are_refused_with_their_place(tmp_path, names, cells, said):
+    with pytest.raises(hystrip.InputError, match=said):
+        read_dma(written(tmp_path, f"{names}\n{rows(*cells)}"))
+
+
 STRAINS = "f [Hz];Strain [%];E' [MPa];E'' [MPa];T [°C];note\n" + "".join(
     f"{f};{strain};{E};0.3;{T};\n" for T in (20, 40) for f in (1, 10, 100) for strain, E in ((0.1, 3), (1, 2.4), (10, 1.5))
 )

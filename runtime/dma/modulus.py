@@ -18,7 +18,7 @@ _PER_DECADE = 12
 #: the most that may be asked for
 _MOST = 1000
 #: Pa, least modulus: a vacuum is stiffer, and residuals relative to less leave the range of a double when squared
-_SMALLEST = 1e-20
+SMALLEST_MODULUS = 1e-20
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +57,10 @@ class DynamicModulus:
         storage = numbers("dma.storage", self.storage, "Pa", 0, strict=True)
         loss = numbers("dma.loss", self.loss, "Pa", 0)
         for name, values in (("dma.storage", storage), ("dma.loss", loss)):
-            lost = (values > 0) & (values < _SMALLEST)
+            lost = (values > 0) & (values < SMALLEST_MODULUS)
             if lost.any():
                 zero = "0, or " if name == "dma.loss" else ""
-                raise InputError(name, float(values[lost].flat[0]), f"{zero}numbers from {_SMALLEST:g} Pa on")
+                raise InputError(name, float(values[lost].flat[0]), f"{zero}numbers from {SMALLEST_MODULUS:g} Pa on")
         shapes = [each.shape for each in (omega, storage, loss)]
         if omega.ndim != 1 or omega.size < 2 or len(set(shapes)) > 1:
             raise InputError("dma", shapes, "omega, storage and loss of one shape (n,), n >= 2")

@@ -7,11 +7,11 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import truth
+from ..inputs.checks import LARGEST, truth
 from ..inputs.shift import WLF, Arrhenius, Shift
 from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
 from .contradictions import remark_on_contradictions
-from .modulus import DynamicModulus
+from .modulus import SMALLEST_MODULUS, DynamicModulus
 from .pairs import PAIRS, in_range, moduli
 from .plausibility import remark_on, remark_on_loss, remark_on_repeats, remark_on_temperatures
 from .readings import Readings, celsius
@@ -108,6 +108,10 @@ def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shea
         good, rule = (second >= first, "not below") if pair[0] == "storage" else (second > first, "above")
         refuse("absolute", good, f"numbers {rule} those of {chosen[pair[0]].name!r}")
     refuse(pair[1], np.isfinite(storage), "numbers > 0 where the storage modulus follows from them")
+    for role, found, zero in (("storage", storage, ""), ("loss", loss, "0, or ")):
+        follows = f"numbers of which a {role} modulus of {zero}{SMALLEST_MODULUS:g} to {LARGEST:g} Pa follows"
+        good = (found >= SMALLEST_MODULUS) & (found <= LARGEST) | ((found == 0) & (role == "loss"))
+        refuse(role if role in pair else pair[1], good, follows)
     temperature = to_kelvin(values["temperature"], chosen["temperature"], where) if "temperature" in chosen else None
     remark_on(_taken(where, next(chosen[role] for role in chosen if role in ("storage", "loss", "absolute"))), storage)
     remark_on_loss(_taken(where, chosen[pair[1]]), loss / storage)
