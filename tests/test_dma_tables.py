@@ -429,6 +429,67 @@ def test_moduli_beyond_all_are_refused_with_their_place(tmp_path, names, cells, 
         read_dma(written(tmp_path, f"{names}\n{rows(*cells)}"))
 
 
+FOOTED = "f [Hz];E' [MPa];E'' [MPa]\n0.1;1.02;0.11\n1;1.31;0.28\n10;2.2;0.9\n"
+
+
+@pytest.mark.parametrize(
+    ("table", "footer", "line", "beginning"),
+    [
+        (FOOTED, "End of data\n", 5, "End of data"),
+        (FOOTED, "\nComments: sample slipped; repeated\n", 6, "Comments: sample slipped repeated"),
+        (FOOTED, "Operator;A. Smith;12.5;lab;3\n", 5, "Operator A. Smith 12.5 lab 3"),
+        (FOOTED, "\nTg;-45,2 °C\n", 6, "Tg -45,2 °C"),  # which said that all others have a decimal comma
+        (FOOTED, "Mean;1.5;0.4\n", 5, "Mean 1.5 0.4"),
+        (FOOTED, "# " + "end " * 30, 5, "# " + ("end " * 30)[:38]),
+        (FOOTED.replace(";", "  ").replace(" [", "["), "End of data\n", 5, "End of data"),
+        (FOOTED.replace(";", "  ").replace(" [", "["), "Measured by A. Smith in 2024\n", 5, "Measured by A. Smith in 2024"),
+    ],
+)
+def test_text_below_a_table_is_refused_as_such(tmp_path, table, footer, line, beginning):
+    said = f"line {line}: got {beginning!r}; allowed: rows of numbers down to the end: delete the text below .*, line 4, or keep"
+    with pytest.raises(hystrip.InputError, match=said):
+        read_dma(written(tmp_path, table + footer))
+
+
+def test_text_within_a_table_or_in_one_cell_is_no_footer(tmp_path):
+    for text in (FOOTED.replace("1;1.31", "pause;1.31"), FOOTED + "100;overflow;0.9\n"):
+        with pytest.raises(
+            hystrip.InputError, match="line [35], column .*: got '(pause|overflow)'; allowed: a number with a decimal"
+        ):
+            read_dma(written(tmp_path, text))
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ("f [Hz];E' 10°C [MPa];E'' 10°C [MPa];E' 20°C [MPa]", "such as \"E' 10°C .MPa.\" and \"E'' 10°C"),
+        ("f [Hz];E'(283 K);E'(293 K);E'(303 K)", 'such as "E\'.283 K." and "E\'.293 K'),
+        ("f [Hz];10;20;30.5", "such as '10' and '20'"),
+        ("f [Hz];E' [MPa];E'' [MPa];E' [MPa]", "line 1: got .*; allowed: one column of storage; several temperatures"),
+    ],
+)
+def test_columns_for_each_temperature_are_refused_as_such(tmp_path, names, said):
+    with pytest.raises(hystrip.InputError, match=said) as refused:
+        read_isotherms(written(tmp_path, f"{names}\n1;2;3;4\n10;3;4;5\n"))
+    assert "several temperatures stand one below the other, each row with its temperature in a column of its own" in str(
+        refused.value
+    )
+
+
+@pytest.mark.parametrize("rule", ["-" * 30, "=====  =====", "_________", "******", "----- ----- -----"])
+def test_lines_that_rule_off_are_passed_over(tmp_path, rule):
+    names, *below = ["f[Hz]  E'[MPa]  E''[MPa]", "0.1  1.02  0.11", "10  2.2  0.9"]
+    for lines in ([names, rule, *below], [rule, names, *below], [names, *below, rule]):
+        data = read_dma(written(tmp_path, "\n".join(lines)))
+        assert data.storage == pytest.approx([1.02e6, 2.2e6]) and not any("left out" in each for each in data.columns)
+
+
+def test_a_unit_may_follow_a_blank(tmp_path):
+    data = read_dma(written(tmp_path, "Freq Hz,Temp °C,Storage modulus MPa,Phase angle deg\n0.1,20,1,10\n10,20,2,20\n"))
+    assert data.frequency == pytest.approx([0.1, 10]) and data.temperature == pytest.approx(293.15)
+    assert data.loss == pytest.approx(data.storage * np.tan(np.radians([10, 20])))
+
+
 STRAINS = "f [Hz];Strain [%];E' [MPa];E'' [MPa];T [°C];note\n" + "".join(
     f"{f};{strain};{E};0.3;{T};\n" for T in (20, 40) for f in (1, 10, 100) for strain, E in ((0.1, 3), (1, 2.4), (10, 1.5))
 )

@@ -15,7 +15,11 @@ _SLASHED = re.compile(r"^(?P<name>.+?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)$")
 _LOGARITHM = re.compile(r"\W*(log|lg|ln)(10|_|\W)", re.IGNORECASE)
 _COMPLIANCE = re.compile(r"[JD]\W*'|.*(compliance|nachgiebigkeit)", re.IGNORECASE)
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
-_UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>[^\s_]+)$")
+_UNDERSCORED = re.compile(r"^(?P<name>.+)[_ ](?P<unit>[^\s_]+)$")
+
+#: a temperature in a name, or for one
+_AT_TEMPERATURE = re.compile(r".*\d\s*([°º]|deg|K\b|C\b|F\b)|[-+\u2212]?\d+([.,]\d+)?$", re.IGNORECASE)
+ONE_BELOW_THE_OTHER = "several temperatures stand one below the other, each row with its temperature in a column of its own"
 
 #: names as they stand after ``_plain``: without spaces, signs and case, primes as ' and "
 _NAMES = {
@@ -48,7 +52,7 @@ _PRIMES = str.maketrans(dict.fromkeys("″“”", '"') | dict.fromkeys("′’�
 _KELVIN = ("K", "kelvin", "degK")
 _CELSIUS = ("C", "°C", "ºC", "degC", "celsius", "℃")
 _FAHRENHEIT = ("F", "°F", "ºF", "degF", "fahrenheit")
-#: units that may follow an underscore, which stands between the words of a name as well
+#: units that may follow an underscore or a blank, which stand between the words of a name as well
 _AFTER_UNDERSCORE = {*_PA, *_HZ, *_ANGLES, *_KELVIN, *_CELSIUS, *_FAHRENHEIT}
 
 
@@ -95,6 +99,9 @@ def lacking(names: list[str]) -> tuple[int, str]:
     if compliances and moduli < 2:
         inverse = "E' = J'/(J'^2 + J''^2), E'' = J''/(J'^2 + J''^2)"
         words.append(f"moduli where {compliances[0]!r} is a compliance: {inverse}")
+    at = [name for name in names if _AT_TEMPERATURE.match(name)]
+    if len(at) > 1:
+        words.append(f"{ONE_BELOW_THE_OTHER}, not in columns such as {at[0]!r} and {at[1]!r}")
     missing = 3 - frequency - moduli
     return min(missing, 2) if len(logarithms) > 1 else missing, "; ".join(words)  # of these it is known what is wrong
 

@@ -9,13 +9,13 @@ import numpy as np
 from ..errors import InputError
 from ..inputs.checks import LARGEST, truth
 from ..inputs.shift import WLF, Arrhenius, Shift
-from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
+from .columns import ONE_BELOW_THE_OTHER, Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
 from .contradictions import remark_on_contradictions
 from .modulus import SMALLEST_MODULUS, DynamicModulus
 from .pairs import PAIRS, in_range, moduli
 from .plausibility import remark_on, remark_on_loss, remark_on_repeats, remark_on_temperatures
 from .readings import Readings, celsius
-from .table import NO_NUMBER, Table, as_number, decimal_comma, read_table
+from .table import NO_NUMBER, Table, as_number, decimal_comma, read_table, refuse_footer
 
 #: columns that mean nothing without a unit
 _WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute", "phase")
@@ -155,7 +155,9 @@ def _chosen(where: str, table: Table, columns: list[Column]) -> tuple[tuple[str,
     for role in (frequency, *pair, *(each for each in ("temperature", "set") if each in roles)):
         found = [column for column in columns if column.role == role]
         if len(found) > 1:
-            raise InputError(f"{where}, line {table.line}", [column.name for column in found], f"one column of {role}")
+            raise InputError(
+                f"{where}, line {table.line}", [column.name for column in found], f"one column of {role}; {ONE_BELOW_THE_OTHER}"
+            )
         chosen[role] = found[0]
     return pair, chosen
 
@@ -182,6 +184,7 @@ def _numbers(
             try:
                 values.append(as_number(text, comma))
             except ValueError:
+                refuse_footer(table, line)
                 allowed = f"a number with a decimal {'comma' if comma else 'point'}, or nothing"
                 raise InputError(f"{place}, column {column.name!r}", text, allowed) from None
         if np.isinf(values).any():

@@ -30,6 +30,8 @@ _PARTED = re.compile(r"[-+\u2212]?\d{1,3}([\s'’])\d{3}(\1\d{3})*([.,]\d*)?([eE
 _IN_BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[\])}>]")
 #: what stands where there is no number, if anything
 NO_NUMBER = re.compile(r"-*|\u2013|\u2014|n/?a|null|none", re.IGNORECASE)
+#: a line that only rules off what stands above it
+_RULE = re.compile(r"\s*[-=_*]{4}[-=_*\s]*")
 #: a number, in whatever signs
 _DIGITS = re.compile(r"[-+\u2212]?[\d.,\s'’]+([eE][-+]?\d+)?")
 
@@ -67,7 +69,7 @@ def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tupl
     where blanks part them, with fewer.
     """
     where = str(path_of(path, "path", "a text file with a table"))
-    lines = _text(where).splitlines()
+    lines = ["" if _RULE.fullmatch(line) else line for line in _text(where).splitlines()]
     nearest = (lacking([])[0], "", 0, [])
     # first line by line: a quotation mark in a remark opens no cell of many lines; names behind the sign of a remark at last
     for marked, whole, separator in itertools.product((False, True), (False, True), _SEPARATORS):
@@ -159,11 +161,25 @@ def _cells(text: str, count: int) -> list[str]:
     return cells if len(cells) == count else next((way for way in _parted_by_blanks(text) if len(way) == count), [text])
 
 
+def refuse_footer(table: Table, line: int) -> None:
+    """Raise ``InputError`` for the row of this line if it is text, and no row of numbers follows it."""
+    last = max((at for at, row in table.rows if _numeric(row, 3)), default=0)
+    row = next(row for at, row in table.rows if at == line)
+    first = next(filter(None, row))
+    if 0 < last < line and not _DIGITS.fullmatch(first):
+        beginning = " ".join(filter(None, row))[:40]
+        allowed = (
+            f"rows of numbers down to the end: delete the text below the last of them, line {last}, or keep it above the names"
+        )
+        raise InputError(f"{table.where}, line {line}", beginning, allowed)
+
+
 def _checked(table: Table) -> Table:
     """Refuse rows of more cells than names, or of fewer where blanks part them: it is not known which stands below which name."""
     width = max(i for i, name in enumerate(table.names, 1) if name)
     for line, row in table.rows:
         if any(row[width:]) or (table.separator == _BLANKS and len(row) < width):
+            refuse_footer(table, line)
             hint = _HINTS.get(table.separator, "")
             raise InputError(f"{table.where}, line {line}", row, f"{width} cells, as many as there are names{hint}")
         if table.separator == _BLANKS and any(cell.endswith((",", ";")) for cell in row):
@@ -180,6 +196,7 @@ def decimal_comma(table: Table, cells: Sequence[str], given: str | None) -> bool
         if given not in (".", ","):
             raise InputError("decimal", given, "'.' or ','")
         return given == ","
+    cells = [cell for cell in cells if _DIGITS.fullmatch(cell)]  # a text, such as one below the table, says nothing
     for cell in cells:
         if "," in cell and "." in cell:  # the sign further to the right is the decimal one
             return cell.rfind(",") > cell.rfind(".")
