@@ -476,6 +476,11 @@ def test_columns_for_each_temperature_are_refused_as_such(tmp_path, names, said)
     )
 
 
+def test_columns_of_e_and_of_g_are_not_taken_for_two_temperatures(tmp_path):
+    with pytest.raises(hystrip.InputError, match="one column of storage; of E or of G$"):
+        read_dma(written(tmp_path, "f [Hz];E' [MPa];E'' [MPa];G' [MPa];G'' [MPa]\n1;3;0.3;1;0.1\n10;6;0.6;2;0.2\n"))
+
+
 @pytest.mark.parametrize("rule", ["-" * 30, "=====  =====", "_________", "******", "----- ----- -----"])
 def test_lines_that_rule_off_are_passed_over(tmp_path, rule):
     names, *below = ["f[Hz]  E'[MPa]  E''[MPa]", "0.1  1.02  0.11", "10  2.2  0.9"]

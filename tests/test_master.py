@@ -153,6 +153,19 @@ def test_standard_errors_are_the_scatter_of_the_shifts():
         assert 0.7 < np.sqrt(np.mean(np.square(off))) < 1.5, (list(celsius), len(frequency), vertical)
 
 
+@pytest.mark.parametrize("vertical", [False, True])
+def test_points_that_come_to_lie_on_one_another_determine_shifts(vertical):
+    """Two frequencies a decade, shifted by half a decade each time: between few places a curve of many knots follows any shift."""
+    given = []
+    for i, T in enumerate((273.15, 283.15, 293.15, 303.15, 313.15)):
+        omega = 2 * np.pi * np.array([0.1, 0.3, 1, 3, 10, 30, 100])
+        z = (1e-3j * omega * 10 ** (-i / 2)) ** 0.5
+        E = 1e6 + 5e8 * z / (1 + z)
+        given.append(DynamicModulus(omega, E.real, E.imag, temperature=T))
+    found = master_curve(given, T_ref=293.15, vertical=vertical)
+    assert np.log10(found.a_T) == pytest.approx([1, 0.5, 0, -0.5, -1], abs=1e-3) and abs(found.shift.vertical) < 0.01
+
+
 BUMPY = {"TIMES": np.geomspace(1e-9, 100, 20)}
 BUMPY["MODULI"] = 2e7 * np.exp(-(((np.log10(BUMPY["TIMES"]) + 4) / 2.2) ** 2) / 2 + 1.2 * np.cos(5.0 * np.arange(20) ** 2))
 #: 1/K, expansion of a rubber

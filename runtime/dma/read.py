@@ -155,9 +155,8 @@ def _chosen(where: str, table: Table, columns: list[Column]) -> tuple[tuple[str,
     for role in (frequency, *pair, *(each for each in ("temperature", "set") if each in roles)):
         found = [column for column in columns if column.role == role]
         if len(found) > 1:
-            raise InputError(
-                f"{where}, line {table.line}", [column.name for column in found], f"one column of {role}; {ONE_BELOW_THE_OTHER}"
-            )
+            hint = ONE_BELOW_THE_OTHER if len({column.kind for column in found}) == 1 else "of E or of G"
+            raise InputError(f"{where}, line {table.line}", [column.name for column in found], f"one column of {role}; {hint}")
         chosen[role] = found[0]
     return pair, chosen
 

@@ -165,7 +165,7 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
         spare, first = found.fun.size - known - 1, found.x
         # Akaike's criterion, corrected for few points
         score = found.fun.size * (np.log(found.cost + 1e-300) + 2 * known / spare) if spare > 0 else np.inf
-        if best is not None and score >= least:
+        if best is not None and (score >= least or np.linalg.norm(found.jac, -2) < _FLAT):  # or a curve that follows any shift
             break
         best, least = (found, pieces, known), score
     found, pieces, known = best
