@@ -155,7 +155,7 @@ def test_standard_errors_are_the_scatter_of_the_shifts():
 
 @pytest.mark.parametrize("vertical", [False, True])
 def test_points_that_come_to_lie_on_one_another_determine_shifts(vertical):
-    """Two frequencies a decade, shifted by half a decade each time: between few places a curve of many knots follows any shift."""
+    """Two frequencies a decade, shifted by half a decade: between few places a curve of many knots follows any shift."""
     given = []
     for i, T in enumerate((273.15, 283.15, 293.15, 303.15, 313.15)):
         omega = 2 * np.pi * np.array([0.1, 0.3, 1, 3, 10, 30, 100])
@@ -199,6 +199,20 @@ def test_vertical_exponent_is_known_to_its_standard_error(monkeypatch, spectrum,
         off.append((found.shift.vertical - v) / found.vertical_error)
     off = np.abs(off)
     assert 0.5 < np.mean(off < 1) < 0.85 and np.mean(off < 2) > 0.87 and off.max() < 4.5, np.sort(off)
+
+
+def test_constants_of_wlf_that_only_their_ratio_is_known_of_are_remarked_on():
+    """Shift factors straight over temperature: C_1 = 5000 and C_2 = 1e5 K, the bound, came out without a word."""
+    celsius = np.arange(0, 61, 10)
+    given = []
+    for T, at_20 in zip(celsius, isotherms(WILLIAMS, [20] * 7, 0.003), strict=True):
+        each = at_20.shifted(10 ** ((T - 20) / 20))  # measured at that frequency, it is hotter by so much
+        given.append(dataclasses.replace(each, temperature=T + 273.15))
+    found = master_curve(given, law="WLF")
+    assert found.shift.C_1 / found.shift.C_2 == pytest.approx(1 / 20, rel=0.02) and found.shift.C_2 > 1e4
+    (said,) = found.remarks
+    assert said.startswith("log10 a_T is straight over temperature: C_1 and C_2 of WLF are known by their ratio alone, 0.0")
+    assert not master_curve(isotherms(WILLIAMS, celsius, 0.003), law="WLF").remarks
 
 
 def test_vertical_exponent_is_printed_with_its_standard_error_and_what_it_may_be():

@@ -58,6 +58,8 @@ def command(
         "relative standard error of b_T": found.b_T_error,
     }
     about = [*about_version(), f"data: {data.name}", shift_remark(found.shift)]
+    if vertical:
+        about.append(f"standard error of the vertical exponent: {found.vertical_error:.2g}")
     with outputs_from(data, out, names) as files:
         write_csv(files.path(names[0]), points, about)
         write_csv(files.path(names[1]), factors, about)

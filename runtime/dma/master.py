@@ -28,6 +28,8 @@ _POOR_OVERLAP = 0.5
 _OFF, _STANDS_OUT = 0.2, 5.0
 #: decades that a measured shift is uncertain by at least, with the temperature of its isotherm
 _LEAST_ERROR = 0.02
+#: times the temperatures' range: beyond, C_2 bends the law by less than a hundredth of what it shifts
+_STRAIGHT = 25.0
 #: exponents of b_T that rubber elasticity has: density, which falls with temperature by 7e-4/K at most, times temperature
 _ELASTIC = (0.75, 1.0)
 
@@ -47,7 +49,7 @@ class MasterCurve:
     rms : root mean square of the relative distance of points from the smooth curve; law_rms : of log10 a_T from the law
     isotherms : what was measured, in the order of the temperatures
     remarks : isotherms off the law, neighbours that hardly overlap, temperatures at which repeats differ, a vertical exponent
-        that may be zero or is none of rubber elasticity, in words
+        that may be zero or is none of rubber elasticity, constants of WLF of which only the ratio is known, in words
     """
 
     data: DynamicModulus
@@ -126,6 +128,9 @@ def master_curve(
     data = isotherms[0]._with(*whole, T_ref)
     off = log_a - np.log10(shift.factor(T))
     remarks = (*_remarks(isotherms, found, off, errors), *(_remarks_on_exponent(found) if vertical else ()))
+    if isinstance(shift, WLF) and shift.C_2 > _STRAIGHT * np.ptp(T):
+        ratio = f"{shift.C_1 / shift.C_2:.3g} /K"
+        remarks += (f"log10 a_T is straight over temperature: C_1 and C_2 of WLF are known by their ratio alone, {ratio}",)
     rms, error = float(found.rms * np.log(10)), found.exponent_error
     of_a, of_b = errors * np.log(10), np.abs(np.log(T / T_ref)) * error
     return MasterCurve(data, T, a_T, b_T, of_a, of_b, error, shift, rms, law_rms, tuple(isotherms), remarks)
