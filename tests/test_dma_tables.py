@@ -465,6 +465,7 @@ def test_text_within_a_table_or_in_one_cell_is_no_footer(tmp_path):
         ("f [Hz];E' 10°C [MPa];E'' 10°C [MPa];E' 20°C [MPa]", "such as \"E' 10°C .MPa.\" and \"E'' 10°C"),
         ("f [Hz];E'(283 K);E'(293 K);E'(303 K)", 'such as "E\'.283 K." and "E\'.293 K'),
         ("f [Hz];10;20;30.5", "such as '10' and '20'"),
+        ("T [°C];E' 1 Hz [MPa];E'' 1 Hz [MPa];E' 10 Hz [MPa]", 'and frequencies so, not in columns such as "E\' 1 Hz .MPa." and'),
         ("f [Hz];E' [MPa];E'' [MPa];E' [MPa]", "line 1: got .*; allowed: one column of storage; several temperatures"),
     ],
 )

@@ -17,8 +17,9 @@ _COMPLIANCE = re.compile(r"[JD]\W*'|.*(compliance|nachgiebigkeit)", re.IGNORECAS
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
 _UNDERSCORED = re.compile(r"^(?P<name>.+)[_ ](?P<unit>[^\s_]+)$")
 
-#: a temperature in a name, or for one
-_AT_TEMPERATURE = re.compile(r".*\d\s*([°º]|deg|K\b|C\b|F\b)|[-+\u2212]?\d+([.,]\d+)?$", re.IGNORECASE)
+#: a temperature or a frequency in a name, or a number for one
+_AT_ONE = re.compile(r".*\d\s*([°º]|deg|K\b|C\b|F\b|Hz)", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+\u2212]?\d+([.,]\d+)?")
 ONE_BELOW_THE_OTHER = "several temperatures stand one below the other, each row with its temperature in a column of its own"
 
 #: names as they stand after ``_plain``: without spaces, signs and case, primes as ' and "
@@ -99,11 +100,13 @@ def lacking(names: list[str]) -> tuple[int, str]:
     if compliances and moduli < 2:
         inverse = "E' = J'/(J'^2 + J''^2), E'' = J''/(J'^2 + J''^2)"
         words.append(f"moduli where {compliances[0]!r} is a compliance: {inverse}")
-    at = [name for name in names if _AT_TEMPERATURE.match(name)]
+    at = [name for name in names if _AT_ONE.match(name) or (frequency and _NUMBER.fullmatch(name))]
     if len(at) > 1:
-        words.append(f"{ONE_BELOW_THE_OTHER}, not in columns such as {at[0]!r} and {at[1]!r}")
+        words.append(f"{ONE_BELOW_THE_OTHER}, and frequencies so, not in columns such as {at[0]!r} and {at[1]!r}")
     missing = 3 - frequency - moduli
-    return min(missing, 2) if len(logarithms) > 1 else missing, "; ".join(words)  # of these it is known what is wrong
+    return min(missing, 2) if len(logarithms) > 1 or len(at) > 1 else missing, "; ".join(
+        words
+    )  # of these it is known what is wrong
 
 
 def factor(column: Column, where: str) -> float:

@@ -199,7 +199,8 @@ def _checked(isotherms: Any) -> list[DynamicModulus]:
         if each.temperature is None:
             raise InputError(f"isotherms[{i}].temperature", None, "its temperature, K")
         if (each.loss <= 0).any():
-            raise InputError(f"isotherms[{i}].loss", 0.0, "loss moduli > 0: their logarithms are shifted")
+            at = f"that at {celsius(each.temperature)} and {each.frequency[np.argmin(each.loss)]:.4g} Hz is not"
+            raise InputError(f"isotherms[{i}].loss", 0.0, f"loss moduli > 0, since their logarithms are shifted: {at}")
         if each.kind != found[0].kind:
             raise InputError(f"isotherms[{i}].kind", each.kind, f"{found[0].kind!r}, that of the first")
     found.sort(key=lambda each: each.temperature)
