@@ -79,7 +79,7 @@ def test_both_points_are_found_where_a_curve_turns():
     level_means(columns, np.full(24, 1e-4))
     turn = 0.382436550468  # located by the strips that let go first
     near = columns.at(np.zeros(6, int), (turn - np.geomspace(1e-3, 1e-9, 6)) * level.h)
-    state, theta, _ = (np.concatenate(v) for v in zip(*columns.crossings.predicted(near), strict=True))
+    state, theta = (np.concatenate(v) for v in zip(*columns.crossings.predicted(near), strict=True))
     A = level.amplitude(theta)
     folds = [np.sort(A[(state == k) & (A > 0.08 * level.h) & (A < 0.15 * level.h)]) for k in range(6)]
     assert all(fold.size >= 2 and fold[-1] > fold[0] for fold in folds)

@@ -149,15 +149,14 @@ class _Work:
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
 
-    def start(self, state: np.ndarray, theta: np.ndarray, ends: np.ndarray) -> Panels:
-        """Panels between the breaks (k,) that are known. Strips are looked at beside those at which an orbit ``ends``, as at the
-        crest and next to the valley: of a third regime there may be so few that no node meets them."""
+    def start(self, state: np.ndarray, theta: np.ndarray) -> Panels:
+        """Panels between the breaks (k,) that are known. Strips are looked at beside each, at the crest and next to the valley:
+        of a third regime there may be so few that no node meets them."""
         n, every = self.rtol.size, np.arange(self.rtol.size)
         # what lies beyond the last strip before the valley does not matter at a column's accuracy
         near_valley = np.pi * (1 - np.clip(_VALLEY * self.share, _NEAREST, _FARTHEST))
         crest, valley = self._later(every, np.zeros(n)), self._later(every, near_valley)
-        ends, (before, after) = np.flatnonzero(ends), np.full((2, theta.size), -1)
-        before[ends], after[ends] = self._beside(state[ends], theta[ends])
+        before, after = self._beside(state, theta)
         state = np.concatenate((state, every))
         starts = state, np.concatenate((theta, np.zeros(n))), np.concatenate((after, crest))
         panels = Panels.between(starts, (state, np.concatenate((theta, np.full(n, np.pi))), np.concatenate((before, valley))))
@@ -165,10 +164,7 @@ class _Work:
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""
-        fresh = self.ends is None
         stages = sampled(stages, Panels.at, lambda panels, theta: self._evaluated(panels.state, theta))
-        if fresh:
-            self._look_beside_thresholds(stages[0])
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         for stage in stages:
@@ -258,18 +254,6 @@ class _Work:
         """``_later`` on both sides of the places ``theta`` (k,)."""
         near = np.clip(_NEXT * self.share[state], _CLOSEST, _FARTHEST)
         return self._later(state, np.maximum(theta - near, 0.0)), self._later(state, np.minimum(theta + near, np.pi))
-
-    def _look_beside_thresholds(self, stage: Stage) -> None:
-        """Strips beside thresholds where codes of panels do not follow one another: a third zone may be narrower than a step."""
-        panels, codes = stage.parts, stage.known[0]
-        order = np.lexsort((panels.low, panels.state))
-        left, right = order[:-1], order[1:]
-        unknown = (panels.last[left] < 0) & (panels.first[right] < 0) & (panels.high[left] == panels.low[right])
-        doubtful = unknown & (panels.state[left] == panels.state[right]) & hides_another(codes[left, -1], codes[right, 0])
-        left, right = left[doubtful], right[doubtful]
-        if left.size:
-            panels.last[left], panels.first[right] = self._beside(panels.state[left], panels.high[left])
-            self._evaluated(np.empty(0, int), np.empty(0))
 
     def _outer(self, stage: Stage) -> tuple[np.ndarray, ...]:
         """What is known at the nodes of panels, and their thetas, with one more at either end: the strip known beyond the

@@ -68,11 +68,9 @@ def thresholds(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     return state, 2 * np.arctan2(np.sqrt(lost[inside]), np.sqrt(left[inside]))
 
 
-def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby; and at which of
-    these curves orbits end, with any other beyond."""
-    state, theta = thresholds(columns)
-    every = [(state, theta, np.zeros(state.size, bool)), *columns.crossings.predicted(columns)]
+def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
+    """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby."""
+    every = thresholds(columns), *columns.crossings.predicted(columns)
     return tuple(np.concatenate(v) for v in zip(*every, strict=True))
 
 
@@ -216,9 +214,9 @@ class Crossings:
         fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
-    def predicted(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    def predicted(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Columns and thetas (k,) at which ``columns`` cross what is known of each curve, by Newton from between the two points
-        nearest on it, or from the parabola through three where it turns, or pass by a turn; and whether orbits end there."""
+        nearest on it, or from the parabola through three where it turns, or pass by a turn."""
         E = columns.D - columns.level.h
         for boundary, known in self.points.items():
             starts = _between(known, columns.V, E), _next_to_turns(known, columns.V, E)
@@ -232,12 +230,12 @@ class Crossings:
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
             self.remember(boundary, points)
-            yield state, theta_of(columns, points.A), np.full(state.size, boundary.event in ("fold", "release"))
+            yield state, theta_of(columns, points.A)
         # just beyond a turn strips come close to an end: their contact all but closes, say
         for turns in (turns for boundary, turns in self.turns.items() if boundary.event != "peak"):
             beyond = turns.way * (E[:, None] - turns.E) >= 0
             state, turn = np.nonzero((columns.V[:, None] == turns.velocity) & beyond)
-            yield state, theta_of(columns, turns.A[turn]), np.zeros(state.size, bool)
+            yield state, theta_of(columns, turns.A[turn])
 
     def turned(self, columns: LevelBatch) -> Turns:
         """Where the curves turn, as far as is known at the velocities of ``columns``."""
