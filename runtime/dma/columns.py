@@ -103,10 +103,9 @@ def lacking(names: list[str]) -> tuple[int, str]:
     at = [name for name in names if _AT_ONE.match(name) or (frequency and _NUMBER.fullmatch(name))]
     if len(at) > 1:
         words.append(f"{ONE_BELOW_THE_OTHER}, and frequencies so, not in columns such as {at[0]!r} and {at[1]!r}")
-    missing = 3 - frequency - moduli
-    return min(missing, 2) if len(logarithms) > 1 or len(at) > 1 else missing, "; ".join(
-        words
-    )  # of these it is known what is wrong
+    # of several logarithms, or columns for one temperature each, it is known what is wrong
+    missing = min(3 - frequency - moduli, 2 if len(logarithms) > 1 or len(at) > 1 else 3)
+    return missing, "; ".join(words)
 
 
 def factor(column: Column, where: str) -> float:
