@@ -42,6 +42,7 @@ def test_times_that_are_not_there_are_dropped():
     assert series.offered == 7 and np.allclose(series.times, TIMES[1::2]) and np.allclose(series.moduli, MODULI[1::2], rtol=1e-10)
 
 
+@pytest.mark.filterwarnings("ignore:dma.loss over dma.storage")  # no rubber is that viscous
 @pytest.mark.parametrize("terms", [1, 2, 3, 4])
 def test_times_are_placed_where_they_were(terms):
     rng = np.random.default_rng(terms)
@@ -394,6 +395,7 @@ def test_calls_of_the_wrong_kind_are_named(call, said):
         call(known(7e5, MODULI, TIMES))
 
 
+@pytest.mark.filterwarnings("ignore:dma.loss over dma.storage")  # no rubber is that viscous
 def test_what_is_no_relaxing_solid_is_refused():
     with pytest.raises(hystrip.InputError, match="^data: got 'no relaxed modulus"):
         fit_prony(known(0.0, np.array([1e6]), np.array([1.0])))
