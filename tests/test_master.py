@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.dma import DynamicModulus, fit_prony, master_curve, read_dma, read_isotherms
+from hystrip.dma import DynamicModulus, fit_prony, master_curve, read_dma, read_isotherms, superposition
 from hystrip.dma.read import read_shift
 from hystrip.example import rubber
 from hystrip.plots.master import master_curve as draw
@@ -128,6 +128,16 @@ def test_moduli_that_do_not_change_with_frequency_are_refused():
         master_curve(flat)
     with pytest.raises(hystrip.InputError, match="or their frequencies too few"):
         master_curve(isotherms(WILLIAMS, (10, 20), frequency=np.array([0.1, 3.0, 100.0])))
+
+
+def test_isotherms_that_do_not_overlap_are_refused_soon(monkeypatch):
+    """A gap leaves loose how far apart its sides are: with many knots fits went on along it for seconds."""
+    calls, splines = [], superposition._splines
+    monkeypatch.setattr(superposition, "_splines", lambda *given: calls.append(1) or splines(*given))
+    given = isotherms(WILLIAMS, range(-44, 60, 8), 0.01, np.array([0.3, 3.0, 10.0]))
+    with pytest.raises(hystrip.InputError, match="neighbours that overlap after shifting"):
+        master_curve(given)
+    assert len(calls) < 3000
 
 
 def test_two_frequencies_determine_shifts_of_near_temperatures():

@@ -16,6 +16,8 @@ from .readings import degrees
 
 #: knots of the smooth curve per decade of reduced frequency, the next ones where they lower Akaike's criterion
 _KNOTS = (1, 2, 3, 4)
+#: steps of a fit with more knots: one that takes more is of a curve that they leave loose
+_MOST_STEPS = 100
 #: exponents of b_T are sought up to this
 LARGEST_EXPONENT = 3.0
 #: steps per decade in which the first guess of a shift is sought
@@ -160,12 +162,14 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
     for knots in _KNOTS:
         # as many while shifts change: with another number the residuals would jump
         pieces = max(int(np.ceil(knots * np.ptp(places(first)))), 1)
-        found = least_squares(residuals, first, bounds=bounds, x_scale=0.1, xtol=1e-8, ftol=1e-8, args=(pieces,))
+        how = {"x_scale": 0.1, "xtol": 1e-8, "ftol": 1e-8, "max_nfev": _MOST_STEPS if best else None}
+        found = least_squares(residuals, first, bounds=bounds, args=(pieces,), **how)
         known = 2 * np.linalg.matrix_rank(_splines(places(found.x), pieces)) + found.x.size
         spare, first = found.fun.size - known - 1, found.x
         # Akaike's criterion, corrected for few points
         score = found.fun.size * (np.log(found.cost + 1e-300) + 2 * known / spare) if spare > 0 else np.inf
-        if best is not None and (score >= least or np.linalg.norm(found.jac, -2) < _FLAT):  # or a curve that follows any shift
+        # or a curve that follows any shift
+        if best and (score >= least or not found.success or np.linalg.norm(found.jac, -2) < _FLAT):
             break
         best, least = (found, pieces, known), score
     found, pieces, known = best
