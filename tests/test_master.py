@@ -127,7 +127,15 @@ def test_moduli_that_do_not_change_with_frequency_are_refused():
     with pytest.raises(hystrip.InputError, match="change with frequency determines the shift"):
         master_curve(flat)
     with pytest.raises(hystrip.InputError, match="or their frequencies too few"):
-        master_curve(isotherms(WILLIAMS, (10, 20), frequency=np.array([0.1, 3.0, 100.0])))
+        master_curve(isotherms(WILLIAMS, (10, 20), frequency=np.array([0.1, 100.0])))
+
+
+@pytest.mark.parametrize("celsius", [(10, 20), (10, 18, 26), (10, 20, 30)])
+def test_errors_of_shifts_by_three_frequencies_are_those_of_a_curve_that_does_not_meet_all_points(celsius):
+    found = [master_curve(isotherms(WILLIAMS, celsius, 0.005, np.array([0.1, 3.0, 100.0]), seed)) for seed in range(8)]
+    off = np.ravel([decades_off(each)[each.temperatures != each.T_ref] for each in found])
+    errors = np.ravel([np.log10(np.e) * each.a_T_error[each.temperatures != each.T_ref] for each in found])
+    assert np.abs(off).max() < 0.1 and np.sqrt(np.mean((off / errors) ** 2)) < 2 and errors.min() > 1e-3
 
 
 def test_isotherms_that_do_not_overlap_are_refused_soon(monkeypatch):

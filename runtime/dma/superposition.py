@@ -159,9 +159,11 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
         return off(parameters, (y - parameters[-1] * warmth).T if vertical else y.T, pieces).ravel()
 
     best, least, first = None, np.inf, np.append(start[free], [0.5] if vertical else [])
+    # a curve through all points tells no errors: its unknowns and the shifts are at most three quarters as many as numbers
+    most = 3 * x.size // 4 - 3 - (first.size + 1) // 2
     for knots in _KNOTS:
         # as many while shifts change: with another number the residuals would jump
-        pieces = max(int(np.ceil(knots * np.ptp(places(first)))), 1)
+        pieces = int(max(min(np.ceil(knots * np.ptp(places(first))), np.inf if best else most), 1))
         how = {"x_scale": 0.1, "xtol": 1e-8, "ftol": 1e-8, "max_nfev": _MOST_STEPS if best else None}
         found = least_squares(residuals, first, bounds=bounds, args=(pieces,), **how)
         known = 2 * np.linalg.matrix_rank(_splines(places(found.x), pieces)) + found.x.size
