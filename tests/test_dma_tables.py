@@ -452,7 +452,8 @@ def test_text_below_a_table_is_refused_as_such(tmp_path, table, footer, line, be
 
 
 def test_text_within_a_table_or_in_one_cell_is_no_footer(tmp_path):
-    for text in (FOOTED.replace("1;1.31", "pause;1.31"), FOOTED + "100;overflow;0.9\n"):
+    with_text = "\n".join(f"{first};{row}" for first, row in zip(("at", "ok", "ok", "ok"), FOOTED.splitlines(), strict=True))
+    for text in (FOOTED.replace("1;1.31", "pause;1.31"), FOOTED + "100;overflow;0.9\n", with_text + "\nok;100;overflow;0.9\n"):
         with pytest.raises(
             hystrip.InputError, match="line [35], column .*: got '(pause|overflow)'; allowed: a number with a decimal"
         ):
@@ -494,6 +495,18 @@ def test_a_unit_may_follow_a_blank(tmp_path):
     data = read_dma(written(tmp_path, "Freq Hz,Temp °C,Storage modulus MPa,Phase angle deg\n0.1,20,1,10\n10,20,2,20\n"))
     assert data.frequency == pytest.approx([0.1, 10]) and data.temperature == pytest.approx(293.15)
     assert data.loss == pytest.approx(data.storage * np.tan(np.radians([10, 20])))
+    data = read_dma(written(tmp_path, "Angular frequency rad/s;E' MPa;tan delta\n0.1;1;0.1\n10;2;0.2\n"))
+    assert data.omega == pytest.approx([0.1, 10]) and data.storage == pytest.approx([1e6, 2e6])
+
+
+@pytest.mark.parametrize("other", ["Temp C", "Set °C", "f Hz", "E' Pa", "tan delta K", "Delta K"])
+def test_a_unit_behind_a_blank_makes_no_second_column_of_a_kind_and_none_of_another(tmp_path, other):
+    """Names that came to nothing before units were read there."""
+    last = "delta [rad]" if other == "Delta K" else "tan delta"
+    names = f"Frequency [Hz];Temperature [K];{other};Storage modulus [MPa];{last}"
+    data = read_dma(written(tmp_path, f"{names}\n0.1;293.15;20.1;1;0.001\n10;293.15;20.2;2;0.002\n"))
+    assert data.frequency == pytest.approx([0.1, 10]) and data.temperature == pytest.approx(293.15)
+    assert data.loss == pytest.approx([1e3, 4e3], rel=1e-5) and any(f"ignored: {other!r}" in each for each in data.columns)
 
 
 STRAINS = "f [Hz];Strain [%];E' [MPa];E'' [MPa];T [°C];note\n" + "".join(

@@ -15,7 +15,7 @@ _SLASHED = re.compile(r"^(?P<name>.+?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)$")
 _LOGARITHM = re.compile(r"\W*(log|lg|ln)(10|_|\W)", re.IGNORECASE)
 _COMPLIANCE = re.compile(r"[JD]\W*'|.*(compliance|nachgiebigkeit)", re.IGNORECASE)
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
-_UNDERSCORED = re.compile(r"^(?P<name>.+)[_ ](?P<unit>[^\s_]+)$")
+_UNDERSCORED = re.compile(r"^(?P<name>.+)_(?P<unit>[^\s_]+)$")
 
 #: a temperature or a frequency in a name, or a number for one
 _AT_ONE = re.compile(r".*\d\s*([°º]|deg|K\b|C\b|F\b|Hz)", re.IGNORECASE)
@@ -53,8 +53,11 @@ _PRIMES = str.maketrans(dict.fromkeys("″“”", '"') | dict.fromkeys("′’�
 _KELVIN = ("K", "kelvin", "degK")
 _CELSIUS = ("C", "°C", "ºC", "degC", "celsius", "℃")
 _FAHRENHEIT = ("F", "°F", "ºF", "degF", "fahrenheit")
-#: units that may follow an underscore or a blank, which stand between the words of a name as well
+#: units that may follow an underscore, which stands between the words of a name as well
 _AFTER_UNDERSCORE = {*_PA, *_HZ, *_ANGLES, *_KELVIN, *_CELSIUS, *_FAHRENHEIT}
+#: and those that may follow a blank: of each role its own, "Set C" and "delta K" are other things
+_BEHIND_BLANK = {**dict.fromkeys(_MODULI, tuple(_PA)), "phase": tuple(_ANGLES), "omega": (*_RADIANS, "rad")}
+_BEHIND_BLANK |= {"frequency": (*_HZ, *_RADIANS), "temperature": (*_KELVIN, *_CELSIUS, *_FAHRENHEIT)}
 
 
 @dataclass(frozen=True)
@@ -71,7 +74,7 @@ class Column:
 
 def columns_of(names: list[str]) -> list[Column]:
     """The columns that are understood, in the order of the file."""
-    found = []
+    found, unsure = [], []
     for index, written in enumerate(names):
         if len(_single_spaced(written)) > _LONGEST:
             continue
@@ -83,7 +86,14 @@ def columns_of(names: list[str]) -> list[Column]:
         role, kind = _role(name)
         if role and not _role(unit)[0]:  # E''/E' is a ratio
             found.append(Column(index, written, role, kind, unit))
-    return found
+            continue
+        name, _, unit = _single_spaced(written).rpartition(" ")
+        role, kind = _role(name)
+        if unit in _BEHIND_BLANK.get(role, ()):
+            unsure.append(Column(index, written, role, kind, unit))
+    # a second column of a role is what a blank may as well part from its name
+    known = {column.role for column in found}
+    return sorted((*found, *(each for each in unsure if each.role not in known)), key=lambda column: column.index)
 
 
 def lacking(names: list[str]) -> tuple[int, str]:

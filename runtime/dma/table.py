@@ -163,10 +163,12 @@ def _cells(text: str, count: int) -> list[str]:
 
 def refuse_footer(table: Table, line: int) -> None:
     """Raise ``InputError`` for the row of this line if it is text, and no row of numbers follows it."""
-    last = max((at for at, row in table.rows if _numeric(row, 3)), default=0)
+    last, above = max(((at, row) for at, row in table.rows if _numeric(row, 3)), default=(0, []))
     row = next(row for at, row in table.rows if at == line)
-    first = next(filter(None, row))
-    if 0 < last < line and not _DIGITS.fullmatch(first):
+    filled = [i for i, cell in enumerate(row) if cell]
+    # a column of text has some in a row of numbers, too
+    text = (row[filled[0]], table.cell(above, filled[0]) if len(filled) > 1 else "")
+    if 0 < last < line and not _DIGITS.fullmatch(text[0]) and (not text[1] or _DIGITS.fullmatch(text[1])):
         beginning = " ".join(filter(None, row))[:40]
         allowed = (
             f"rows of numbers down to the end: delete the text below the last of them, line {last}, or keep it above the names"
