@@ -6,7 +6,7 @@ leave on too few of them would pass for shifts. Errors are of two kinds, of sing
 that is clamped anew has them.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -158,6 +158,13 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
     def residuals(parameters, pieces):
         return off(parameters, (y - parameters[-1] * warmth).T if vertical else y.T, pieces).ravel()
 
+    def superposition(found):
+        """What is found, but for errors."""
+        log_a = np.zeros(len(logs))
+        log_a[free] = found.x[: free.size]
+        exponent = float(found.x[-1]) if vertical else 0.0
+        return Superposition(log_a, np.zeros((len(logs), len(logs))), exponent, 0.0, float(np.sqrt(np.mean(found.fun**2))))
+
     best, least, first = None, np.inf, np.append(start[free], [0.5] if vertical else [])
     # a curve through all points tells no errors: its unknowns and the shifts are at most three quarters as many as numbers
     most = 3 * x.size // 4 - 3 - (first.size + 1) // 2
@@ -174,6 +181,8 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
         if best and (score >= least or not found.success or np.linalg.norm(found.jac, -2) < _FLAT):
             break
         best, least = (found, pieces, known), score
+        if apart(isotherms, superposition(found), _LEAST_SHARED):  # across a gap more knots determine no shift
+            break
     found, pieces, known = best
     _, sizes, ways = np.linalg.svd(found.jac, full_matrices=False)
     loose = float(T[free[np.argmax(np.abs(ways[-1, : free.size]))]]) if sizes[-1] < _FLAT else None
@@ -182,10 +191,9 @@ def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, verti
     point, whole = _variances(found.fun, found.jac, of_one, known)
     moved = inverse @ (found.jac.T @ of_one)
     together = point * inverse + whole * (moved @ moved.T)
-    log_a, covariance = np.zeros(len(logs)), np.zeros((len(logs), len(logs)))
-    log_a[free], covariance[np.ix_(free, free)] = found.x[: free.size], together[: free.size, : free.size]
-    exponent, error = (float(found.x[-1]), float(np.sqrt(together[-1, -1]))) if vertical else (0.0, 0.0)
-    return Superposition(log_a, covariance, exponent, error, float(np.sqrt(np.mean(found.fun**2)))), loose
+    out = superposition(found)
+    out.covariance[np.ix_(free, free)] = together[: free.size, : free.size]
+    return replace(out, exponent_error=float(np.sqrt(together[-1, -1])) if vertical else 0.0), loose
 
 
 def _variances(residuals: np.ndarray, jacobian: np.ndarray, of_one: np.ndarray, known: int) -> tuple[float, float]:
