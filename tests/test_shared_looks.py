@@ -43,7 +43,7 @@ def test_velocities_share_nothing(given_by):
         return hystrip.solve_level(*SURFACE[:2], SURFACE[2][0], V=V, rtol=1e-6, **given_by)
 
     together, alone = solve(V[:, None]), [solve(each) for each in V]
-    assert together.converged.all() and together.strips == pytest.approx(sum(one.strips for one in alone), rel=0.01)
+    assert together.converged.all() and together.strips == pytest.approx(sum(one.strips for one in alone), rel=2e-3)
     for name in ("D", "p_mean", "tau_mean"):
         assert getattr(together, name) == pytest.approx(np.array([getattr(one, name) for one in alone]), rel=1e-12)
 
