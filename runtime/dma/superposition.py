@@ -6,13 +6,19 @@ leave on too few of them would pass for shifts. Errors are of two kinds, of sing
 that is clamped anew has them.
 """
 
-from dataclasses import dataclass, replace
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import InputError
 from .modulus import DynamicModulus
 from .readings import degrees
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 #: knots of the smooth curve per decade of reduced frequency, the next ones where they lower Akaike's criterion
 _KNOTS = (1, 2, 3, 4)
@@ -31,15 +37,21 @@ _FLAT = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
-class Superposition:
-    """log10 of the shift factors (n,) of isotherms, 0 at the reference; their covariance (n, n); the exponent of b_T and its
-    standard error; and the rms distance of points from the smooth curve in decades of modulus."""
+class Shifts:
+    """log10 of the shift factors (n,) of isotherms, 0 at the reference; the exponent of b_T; and the rms distance of points from
+    the smooth curve in decades of modulus."""
 
     log_a: np.ndarray
-    covariance: np.ndarray
     exponent: float
-    exponent_error: float
     rms: float
+
+
+@dataclass(frozen=True, eq=False)
+class Superposition(Shifts):
+    """Shifts with the covariance (n, n) of ``log_a`` and the standard error of the exponent."""
+
+    covariance: np.ndarray
+    exponent_error: float
 
 
 def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Superposition:
@@ -66,7 +78,7 @@ def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Super
     return found
 
 
-def apart(isotherms: list[DynamicModulus], found: Superposition, least: float) -> list[tuple[int, float]]:
+def apart(isotherms: list[DynamicModulus], found: Shifts, least: float) -> list[tuple[int, float]]:
     """Each i for which isotherms up to i and from i + 1 on share fewer than ``least`` decades of reduced frequency or no
     modulus, directly or by way of others; and the decades that i and i + 1 share, negative for a gap."""
     from scipy.sparse.csgraph import connected_components
@@ -133,77 +145,106 @@ def _off(x: np.ndarray, y: np.ndarray, x_0: np.ndarray, y_0: np.ndarray) -> np.n
     return np.ravel([row[inside] - np.interp(x[inside], x_0, row_0) for row, row_0 in zip(y, y_0, strict=True)])
 
 
-def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, vertical: bool) -> tuple[Superposition, float | None]:
-    """All shifts at once; and the temperature (K) of an isotherm whose shift nothing determines, or None."""
-    from scipy.optimize import least_squares
+@dataclass(frozen=True, eq=False)
+class _Points:
+    """The points of all isotherms: log10 of omega ``x`` (m,) and of storage and loss ``y`` (2, m), which isotherm each belongs to
+    (``owner``), and log10 of its temperature over the reference's (``warmth``). Parameters are the shifts of the isotherms
+    ``free`` and, if it is fitted, the ``vertical`` exponent."""
 
-    logs = [_logs(each) for each in isotherms]
-    owner = np.repeat(np.arange(len(logs)), [x.size for x, _ in logs])
-    x, y = np.concatenate([x for x, _ in logs]), np.concatenate([y for _, y in logs], axis=1)
-    T = np.array([each.temperature for each in isotherms])
-    warmth = np.log10(T / T[at])[owner]
-    free = np.flatnonzero(np.arange(len(logs)) != at)
-    bounds = np.full((2, free.size + vertical), [[-np.inf], [np.inf]])
-    bounds[:, free.size :] = [[-LARGEST_EXPONENT], [LARGEST_EXPONENT]]
+    x: np.ndarray
+    y: np.ndarray
+    owner: np.ndarray
+    warmth: np.ndarray
+    free: np.ndarray
+    isotherms: int
+    vertical: bool
 
-    def places(parameters):
-        out = np.zeros(len(logs))
-        out[free] = parameters[: free.size]
-        return x + out[owner]
+    @classmethod
+    def of(cls, isotherms: list[DynamicModulus], at: int, vertical: bool) -> _Points:
+        logs = [_logs(each) for each in isotherms]
+        owner = np.repeat(np.arange(len(logs)), [x.size for x, _ in logs])
+        T = np.array([each.temperature for each in isotherms])
+        x, y = np.concatenate([x for x, _ in logs]), np.concatenate([y for _, y in logs], axis=1)
+        return cls(x, y, owner, np.log10(T / T[at])[owner], np.delete(np.arange(T.size), at), T.size, vertical)
 
-    def off(parameters, goal, pieces):
-        rows = _splines(places(parameters), pieces)
+    def log_a(self, parameters: np.ndarray) -> np.ndarray:
+        out = np.zeros(self.isotherms)
+        out[self.free] = parameters[: self.free.size]
+        return out
+
+    def places(self, parameters: np.ndarray) -> np.ndarray:
+        """log10 of reduced frequencies, (m,)."""
+        return self.x + self.log_a(parameters)[self.owner]
+
+    def off(self, parameters: np.ndarray, goal: np.ndarray, pieces: int) -> np.ndarray:
+        """Distances of ``goal`` (m, k) at the points from the nearest splines of so many pieces."""
+        rows = _splines(self.places(parameters), pieces)
         return goal - rows @ np.linalg.lstsq(rows, goal, rcond=None)[0]
 
-    def residuals(parameters, pieces):
-        return off(parameters, (y - parameters[-1] * warmth).T if vertical else y.T, pieces).ravel()
+    def residuals(self, parameters: np.ndarray, pieces: int) -> np.ndarray:
+        """Of both moduli at each point, (2 m,)."""
+        shifted = self.y - parameters[-1] * self.warmth if self.vertical else self.y
+        return self.off(parameters, shifted.T, pieces).ravel()
 
-    def superposition(found):
-        """What is found, but for errors."""
-        log_a = np.zeros(len(logs))
-        log_a[free] = found.x[: free.size]
-        exponent = float(found.x[-1]) if vertical else 0.0
-        return Superposition(log_a, np.zeros((len(logs), len(logs))), exponent, 0.0, float(np.sqrt(np.mean(found.fun**2))))
+    def shifts(self, found: OptimizeResult) -> Shifts:
+        exponent = float(found.x[-1]) if self.vertical else 0.0
+        return Shifts(self.log_a(found.x), exponent, float(np.sqrt(np.mean(found.fun**2))))
 
-    best, least, first = None, np.inf, np.append(start[free], [0.5] if vertical else [])
+
+def _fitted(isotherms: list[DynamicModulus], points: _Points, first: np.ndarray) -> tuple[OptimizeResult, int, int]:
+    """The fit from the parameters ``first``, with as many knots as lower Akaike's criterion, corrected for few points; the pieces
+    of its curve, and how many unknowns it has."""
+    from scipy.optimize import least_squares
+
+    bounds = np.full((2, first.size), [[-np.inf], [np.inf]])
+    bounds[:, points.free.size :] = [[-LARGEST_EXPONENT], [LARGEST_EXPONENT]]
+    best, least = None, np.inf
     # a curve through all points tells no errors: its unknowns and the shifts are at most three quarters as many as numbers
-    most = 3 * x.size // 4 - 3 - (first.size + 1) // 2
+    most = 3 * points.x.size // 4 - 3 - (first.size + 1) // 2
     for knots in _KNOTS:
         # as many while shifts change: with another number the residuals would jump
-        pieces = int(max(min(np.ceil(knots * np.ptp(places(first))), np.inf if best else most), 1))
+        pieces = int(max(min(np.ceil(knots * np.ptp(points.places(first))), np.inf if best else most), 1))
         how = {"x_scale": 0.1, "xtol": 1e-8, "ftol": 1e-8, "max_nfev": _MOST_STEPS if best else None}
-        found = least_squares(residuals, first, bounds=bounds, args=(pieces,), **how)
-        known = 2 * np.linalg.matrix_rank(_splines(places(found.x), pieces)) + found.x.size
-        spare, first = found.fun.size - known - 1, found.x
-        # Akaike's criterion, corrected for few points
-        score = found.fun.size * (np.log(found.cost + 1e-300) + 2 * known / spare) if spare > 0 else np.inf
+        found = least_squares(points.residuals, first, bounds=bounds, args=(pieces,), **how)
+        unknowns = 2 * np.linalg.matrix_rank(_splines(points.places(found.x), pieces)) + found.x.size
+        spare, first = found.fun.size - unknowns - 1, found.x
+        score = found.fun.size * (np.log(found.cost + 1e-300) + 2 * unknowns / spare) if spare > 0 else np.inf
         # or a curve that follows any shift
         if best and (score >= least or not found.success or np.linalg.norm(found.jac, -2) < _FLAT):
             break
-        best, least = (found, pieces, known), score
-        if apart(isotherms, superposition(found), _LEAST_SHARED):  # across a gap more knots determine no shift
+        best, least = (found, pieces, unknowns), score
+        if apart(isotherms, points.shifts(found), _LEAST_SHARED):  # across a gap more knots determine no shift
             break
-    found, pieces, known = best
+    return best
+
+
+def _together(isotherms: list[DynamicModulus], at: int, start: np.ndarray, vertical: bool) -> tuple[Superposition, float | None]:
+    """All shifts at once; and the temperature (K) of an isotherm whose shift nothing determines, or None."""
+    points = _Points.of(isotherms, at, vertical)
+    free, T = points.free, [each.temperature for each in isotherms]
+    found, pieces, unknowns = _fitted(isotherms, points, np.append(start[free], [0.5] if vertical else []))
     _, sizes, ways = np.linalg.svd(found.jac, full_matrices=False)
-    loose = float(T[free[np.argmax(np.abs(ways[-1, : free.size]))]]) if sizes[-1] < _FLAT else None
+    loose = T[free[np.argmax(np.abs(ways[-1, : free.size]))]] if sizes[-1] < _FLAT else None
     inverse = (ways.T / np.maximum(sizes, _FLAT) ** 2) @ ways
-    of_one = np.repeat(off(found.x, np.eye(len(logs))[owner], pieces), 2, axis=0)  # of an isotherm as a whole
-    point, whole = _variances(found.fun, found.jac, of_one, known)
+    # of an isotherm as a whole
+    of_one = np.repeat(points.off(found.x, np.eye(len(T))[points.owner], pieces), 2, axis=0)
+    point, whole = _variances(found.fun, found.jac, of_one, unknowns)
     moved = inverse @ (found.jac.T @ of_one)
     together = point * inverse + whole * (moved @ moved.T)
-    out = superposition(found)
-    out.covariance[np.ix_(free, free)] = together[: free.size, : free.size]
-    return replace(out, exponent_error=float(np.sqrt(together[-1, -1])) if vertical else 0.0), loose
+    covariance = np.zeros((len(T), len(T)))
+    covariance[np.ix_(free, free)] = together[: free.size, : free.size]
+    error = float(np.sqrt(together[-1, -1])) if vertical else 0.0
+    return Superposition(**vars(points.shifts(found)), covariance=covariance, exponent_error=error), loose
 
 
-def _variances(residuals: np.ndarray, jacobian: np.ndarray, of_one: np.ndarray, known: int) -> tuple[float, float]:
-    """Variances of single points, and of isotherms as a whole, by what residuals (m,) with ``known`` unknowns share with columns
-    ``of_one`` (m, n) beyond their ``jacobian`` (Henderson's third method)."""
+def _variances(residuals: np.ndarray, jacobian: np.ndarray, of_one: np.ndarray, unknowns: int) -> tuple[float, float]:
+    """Variances of single points, and of isotherms as a whole, by what residuals (m,) of a fit of so many ``unknowns`` share with
+    columns ``of_one`` (m, n) beyond their ``jacobian`` (Henderson's third method)."""
     beyond = of_one - jacobian @ np.linalg.lstsq(jacobian, of_one, rcond=None)[0]
     directions, sizes, _ = np.linalg.svd(beyond, full_matrices=False)
     kept = sizes > 1e-6 * np.sqrt(len(residuals))
     shared = np.sum((directions[:, kept].T @ residuals) ** 2)
-    freedom = max(residuals.size - known, 1)
+    freedom = max(residuals.size - unknowns, 1)
     point = (np.sum(residuals**2) - shared) / max(freedom - kept.sum(), 1)
     whole = (shared - kept.sum() * point) / np.sum(sizes[kept] ** 2) if kept.any() else 0.0
     return (point, whole) if whole > 0 else (np.sum(residuals**2) / freedom, 0.0)
